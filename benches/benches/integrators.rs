@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Measures one kind of run and notes its error.
-fn bench<E, const D: usize>(
+fn bench<E: Equations<D>, const D: usize>(
     group: &mut Group<'_>,
     notes: &mut Notes,
     name: &str,
@@ -173,7 +173,7 @@ fn collocation<E: Equations<D>, const D: usize>(
     Ok(())
 }
 
-fn compositions<E: Force, const D: usize>(
+fn compositions<E: Equations<D> + Force, const D: usize>(
     group: &mut Group<'_>,
     notes: &mut Notes,
     title: &str,

@@ -32,7 +32,11 @@ fn character(name: &str, end: f64) -> Option<(f64, bool, bool)> {
         // A body crosses the cluster in a unit of time.
         "pleiades" => (end, true, false),
         // Jupiter's year.
-        "outer-solar-system" => (end / 4332.6, false, false),
+        "outer-solar-system" | "outer-solar-system-long" => (end / 4332.6, false, false),
+        // Mercury's year.
+        "inner-solar-system" => (end / 87.97, false, true),
+        // Times in which a body crosses the cluster.
+        "cluster" => (end / 2.83, true, false),
         _ => return None,
     })
 }
@@ -70,8 +74,8 @@ fn method(curve: &Curve) -> Option<&'static str> {
     Some(match curve.family {
         Family::DormandPrince => "DormandPrince853",
         Family::Verner => "Verner98",
-        Family::Nystrom86 => "Nystrom86",
-        Family::Nystrom1210 => "Nystrom1210",
+        Family::Nystrom86 if by_hand => "Nystrom86",
+        Family::Nystrom1210 if by_hand => "Nystrom1210",
         Family::GaussLegendre16 if by_hand => "GaussLegendre16",
         Family::GaussRadau15 if by_hand => "GaussRadau15",
         Family::Composition if curve.order == 8 => "Composition8",

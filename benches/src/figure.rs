@@ -26,11 +26,14 @@ const fn colour(family: Family) -> &'static str {
         Family::DerivedDormandPrince => "#000000",
         Family::OdeSolvers => "#CC79A7",
         Family::DifferentialEquations => "#E69F00",
+        Family::Diffsol => "#AA4499",
+        Family::Russell => "#DDCC77",
+        Family::WisdomHolman => "#661100",
+        Family::AdaptiveMuntheKaas => "#6699CC",
+        Family::MuntheKaas => "#88CCEE",
+        Family::ClosedForm => "#999999",
+        Family::RadauIia => "#CC6677",
     }
-}
-
-const fn is_peer(family: Family) -> bool {
-    matches!(family, Family::OdeSolvers | Family::DifferentialEquations)
 }
 
 /// A logarithmic axis on a stretch of the figure.
@@ -172,7 +175,7 @@ fn line(svg: &mut String, family: Family, places: &[[f64; 2]]) {
     for (number, [x, y]) in places.iter().enumerate() {
         let _ = write!(path, "{}{x:.1} {y:.1}", if number == 0 { "M" } else { "L" });
     }
-    let dashes = if is_peer(family) { " stroke-dasharray=\"7 4\"" } else { "" };
+    let dashes = if family.is_peer() { " stroke-dasharray=\"7 4\"" } else { "" };
     put!(
         svg,
         "<path d=\"{path}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" stroke-linejoin=\"round\"{dashes}/>",
@@ -190,7 +193,7 @@ fn mark(svg: &mut String, curve: &Curve, [x, y]: [f64; 2]) {
         _ => format!("<path d=\"M{x:.1} {:.1}l4.2 4.2l-4.2 4.2l-4.2 -4.2z\"", y - 4.2),
     };
     let colour = colour(curve.family);
-    let fill = if is_peer(curve.family) { "#ffffff" } else { colour };
+    let fill = if curve.family.is_peer() { "#ffffff" } else { colour };
     put!(svg, "{shape} fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"1.2\"/>");
 }
 
@@ -199,7 +202,7 @@ fn legend(svg: &mut String, curves: &[Curve]) {
     for (heading, peers) in [("Piola", false), ("Peers", true)] {
         put!(svg, "<text x=\"{x}\" y=\"{:.1}\" font-weight=\"bold\">{heading}</text>", y + 4.0);
         y += 22.0;
-        for curve in curves.iter().filter(|curve| is_peer(curve.family) == peers) {
+        for curve in curves.iter().filter(|curve| curve.family.is_peer() == peers) {
             line(svg, curve.family, &[[x, y], [x + 30.0, y]]);
             mark(svg, curve, [x + 15.0, y]);
             // A long name goes on in a second line.

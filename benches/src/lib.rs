@@ -4,7 +4,10 @@
 //! |---|---|
 //! | [`advice`] | such tables as the data of `piola_integrators::advise` |
 //! | [`boxes`] | static solutions on a cube: ours, other transforms, differences |
+//! | [`error_bars`] | estimates of the error of whole runs beside the true errors |
 //! | [`problems`] | initial value problems with known solutions, hand-coded as their authors' peers would |
+//! | [`methods`] | our methods for planets, tops and stiff equations, as [`work_precision`] runs them |
+//! | [`program`] | the program `work-precision`, to which crates of their own add peers |
 //! | [`peers`] | the same equations given to other crates |
 //! | [`chain`] | pendulum chains three ways: by placement, hand-coded, by the dual numbers of another crate |
 //! | [`golden_systems`] | the systems of the reference data, hand-coded |
@@ -21,11 +24,14 @@ pub mod boxes;
 pub mod chain;
 pub mod constitutive;
 pub mod continuum;
+pub mod error_bars;
 pub mod figure;
 pub mod golden_systems;
+pub mod methods;
 pub mod notes;
 pub mod peers;
 pub mod problems;
+pub mod program;
 pub mod stability;
 pub mod viscometry;
 pub mod work_precision;

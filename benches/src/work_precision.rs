@@ -53,10 +53,24 @@ pub enum Family {
     DormandPrince,
     /// The adaptive method on equations that Piola derives.
     DerivedDormandPrince,
+    /// The map of Wisdom and Holman for planets.
+    WisdomHolman,
+    /// The adaptive method of Munthe-Kaas on a group.
+    AdaptiveMuntheKaas,
+    /// The same with a fixed step.
+    MuntheKaas,
+    /// A closed form instead of a method.
+    ClosedForm,
+    /// Collocation for stiff equations.
+    RadauIia,
     /// The first peer.
     OdeSolvers,
     /// The second peer.
     DifferentialEquations,
+    /// The third peer, as the fourth measured from a crate of its own in `benches/peers/integration`.
+    Diffsol,
+    /// The fourth peer.
+    Russell,
 }
 
 /// A method of some order, to be run with a parameter: the number of steps or the tolerance.
@@ -72,6 +86,19 @@ pub struct Method<'a> {
     run: Box<dyn Fn(f64) -> Result<Outcome, String> + 'a>,
 }
 
+impl<'a> Method<'a> {
+    /// A method of an order with its parameters, towards smaller errors, and its run with one of them.
+    pub fn new(
+        name: impl Into<String>,
+        family: Family,
+        order: u32,
+        parameters: Vec<f64>,
+        run: impl Fn(f64) -> Result<Outcome, String> + 'a,
+    ) -> Self {
+        Self { name: name.into(), family, order, parameters, run: Box::new(run) }
+    }
+}
+
 impl std::fmt::Debug for Method<'_> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.debug_struct("Method").field("name", &self.name).field("parameters", &self.parameters).finish()
@@ -85,7 +112,7 @@ pub struct Point {
     pub parameter: f64,
     /// The error at the end: see [`Problem::error`].
     pub error: f64,
-    /// The median time of a run, s.
+    /// The time of a run, s: the least of all samples.
     pub seconds: f64,
     /// Evaluations of the equations.
     pub evaluations: u64,
@@ -108,7 +135,7 @@ impl Curve {
     /// The records of this curve: `{problem, method, peer, parameter, error, seconds, evaluations}`.
     #[must_use]
     pub fn records(&self, problem: &str) -> Vec<Value> {
-        let peer = matches!(self.family, Family::OdeSolvers | Family::DifferentialEquations);
+        let peer = self.family.is_peer();
         let record = |point: &Point| {
             json!({
                 "problem": problem, "method": self.name, "peer": peer, "parameter": point.parameter,
@@ -119,21 +146,23 @@ impl Curve {
     }
 }
 
-/// A run longer than this ends the curve of its method.
-const LONGEST_RUN: Duration = Duration::from_millis(120);
 /// A sample repeats short runs until it lasts this long: short beside the time slices of the scheduler, so that
 /// most samples of a short run are not interrupted.
 const SHORTEST_SAMPLE: Duration = Duration::from_micros(200);
 /// Samples of each point, one in every round over all methods.
 const ROUNDS: usize = 15;
+/// Samples of a run that is longer than [`LONG_RUN`].
+const ROUNDS_OF_LONG_RUNS: usize = 5;
+/// The machine's changes within so long a run already even out.
+const LONG_RUN: Duration = Duration::from_millis(20);
 /// Larger errors are not of interest.
 const LARGEST_ERROR: f64 = 0.1;
 /// Only below this error can rounding be what stops a curve.
 const FLOOR: f64 = 1e-9;
 
 /// Measures all methods on a problem, one after the other in every round, so that a slow minute of the
-/// machine slows all of them. Runs that fail are told to `complain` and left out.
-pub fn measure<E, const D: usize>(
+/// machine slows all of them. The least time counts: other programs can only lengthen a run. Runs that fail are told to `complain` and left out.
+pub fn measure<E: Equations<D>, const D: usize>(
     problem: &Problem<E, D>,
     methods: &[Method<'_>],
     mut complain: impl FnMut(&str),
@@ -154,14 +183,14 @@ pub fn measure<E, const D: usize>(
                 }
             };
             let duration = start.elapsed();
-            if LONGEST_RUN < duration {
+            if problem.longest_run < duration {
                 break;
             }
             let error = problem.error(&outcome.state);
             if error.is_nan() || LARGEST_ERROR < error {
                 continue;
             }
-            samples.push((index, curve.points.len(), parameter, duration, Vec::with_capacity(ROUNDS)));
+            samples.push((index, curve.points.len(), parameter, duration, duration.as_secs_f64()));
             curve.points.push(Point { parameter, error, seconds: 0.0, evaluations: outcome.evaluations });
             // The floor of rounding is reached when smaller steps no longer help.
             in_vain = if error < 0.7 * best { 0 } else { in_vain + 1 };
@@ -172,20 +201,22 @@ pub fn measure<E, const D: usize>(
         }
         curves.push(curve);
     }
-    for _ in 0..ROUNDS {
+    for round in 0..ROUNDS {
         for (method, _, parameter, duration, seconds) in &mut samples {
+            if ROUNDS_OF_LONG_RUNS <= round && LONG_RUN < *duration {
+                continue;
+            }
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
             let runs = (SHORTEST_SAMPLE.as_secs_f64() / duration.as_secs_f64()).ceil().clamp(1.0, 1e4) as u32;
             let start = Instant::now();
             for _ in 0..runs {
                 let _outcome = black_box((methods[*method].run)(black_box(*parameter)));
             }
-            seconds.push(start.elapsed().as_secs_f64() / f64::from(runs));
+            *seconds = seconds.min(start.elapsed().as_secs_f64() / f64::from(runs));
         }
     }
-    for (method, point, _, _, mut seconds) in samples {
-        seconds.sort_by(f64::total_cmp);
-        curves[method].points[point].seconds = seconds[seconds.len() / 2];
+    for (method, point, _, _, seconds) in samples {
+        curves[method].points[point].seconds = seconds;
     }
     for curve in &mut curves {
         // Of what lies beyond the smallest error one point shows that there is a floor.
@@ -205,17 +236,32 @@ impl Family {
     /// Whether the parameter is a step, not a tolerance.
     #[must_use]
     pub const fn is_fixed(self) -> bool {
-        matches!(self, Self::Composition | Self::GaussLegendre | Self::CanonicalGaussLegendre)
+        matches!(
+            self,
+            Self::Composition
+                | Self::GaussLegendre
+                | Self::CanonicalGaussLegendre
+                | Self::WisdomHolman
+                | Self::MuntheKaas
+        )
+    }
+
+    /// Whether the method is one of another library.
+    #[must_use]
+    pub const fn is_peer(self) -> bool {
+        matches!(self, Self::OdeSolvers | Self::DifferentialEquations | Self::Diffsol | Self::Russell)
     }
 }
 
 /// Tolerances from 1e-4 to rounding, one to a decade.
-fn tolerances() -> Vec<f64> {
+#[must_use]
+pub fn tolerances() -> Vec<f64> {
     (4..=15).map(|k| 10.0_f64.powi(-k)).collect()
 }
 
 /// Numbers of steps from `fewest` on, four to a factor of ten.
-fn step_counts(fewest: f64) -> Vec<f64> {
+#[must_use]
+pub fn step_counts(fewest: f64) -> Vec<f64> {
     (0..=24).map(|k| (fewest * 10.0_f64.powf(0.25 * f64::from(k))).round()).collect()
 }
 
@@ -271,9 +317,9 @@ where
 }
 
 /// The equations of a problem, over any scalar.
-struct Accelerated<'a, E> {
-    equations: &'a E,
-    freedom: usize,
+pub(crate) struct Accelerated<'a, E> {
+    pub(crate) equations: &'a E,
+    pub(crate) freedom: usize,
 }
 
 impl<T: Real, E: Accelerations> SecondOrder<T> for Accelerated<'_, E> {
@@ -378,24 +424,39 @@ pub fn verner<E: Equations<D>, const D: usize>(problem: &Problem<E, D>) -> Metho
 /// Both explicit Nyström pairs on equations written by hand whose accelerations depend on positions alone.
 #[must_use]
 pub fn nystrom<E: Force, const D: usize>(problem: &Problem<E, D>) -> [Method<'_>; 2] {
+    let field = || Forced::<'_, E, D>(&problem.equations);
+    let [eighth, twelfth] = derived_nystrom("", problem.start, problem.end, field);
+    [Method { name: "Nyström 8(6)".into(), ..eighth }, Method { name: "Nyström 12(10)".into(), ..twelfth }]
+}
+
+/// Both explicit Nyström pairs on a system that Piola derives, whose accelerations depend on positions alone.
+#[must_use]
+pub fn derived_nystrom<'a, F: SecondOrder, const D: usize>(
+    name: &str,
+    start: [f64; D],
+    end: f64,
+    field: impl Fn() -> F + Copy + 'a,
+) -> [Method<'a>; 2]
+where
+    F::Error: std::error::Error + 'static,
+{
     macro_rules! method {
         ($method:ident, $name:literal, $order:literal) => {{
             let run = move |tolerance: f64| {
-                let mut state = State::new(0.0, problem.start.to_vec()).map_err(|error| error.to_string())?;
+                let mut state = State::new(0.0, start.to_vec()).map_err(|error| error.to_string())?;
                 let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
-                let mut field = Forced::<'_, E, D>(&problem.equations);
-                let report = $method::new(tolerance).integrate_to(&mut field, &mut state, problem.end);
+                let report = $method::new(tolerance).integrate_to(&mut field(), &mut state, end);
                 Ok(Outcome::of(report.map_err(|error| error.to_string())?, state))
             };
             let parameters = (2..=16).map(|k| 10.0_f64.powi(-k)).collect();
-            Method { name: $name.into(), family: Family::$method, order: $order, parameters, run: Box::new(run) }
+            Method::new(format!("{}, {name}", $name), Family::$method, $order, parameters, run)
         }};
     }
     [method!(Nystrom86, "Nyström 8(6)", 8), method!(Nystrom1210, "Nyström 12(10)", 12)]
 }
 
 /// The force of a problem of D components.
-struct Forced<'a, E, const D: usize>(&'a E);
+pub(crate) struct Forced<'a, E, const D: usize>(pub(crate) &'a E);
 
 impl<E: Force, const D: usize> SecondOrder for Forced<'_, E, D> {
     type Error = std::convert::Infallible;
@@ -467,7 +528,7 @@ impl<E: Equations<D>, const D: usize> Field for ByHand<'_, E, D> {
         D
     }
     fn is_second_order(&self) -> bool {
-        true
+        E::SECOND_ORDER
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn rate(&mut self, _t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Self::Error> {

@@ -1,7 +1,9 @@
 //! Bodies that attract each other, in the plane or in space.
 
+use std::time::Duration;
+
 use super::reference::{array, numbers, read};
-use super::{Accelerations, Equations, Force, Problem, ReferenceError};
+use super::{Accelerations, Equations, Force, LONGEST_RUN, Problem, ReferenceError};
 use piola_numerics::Real;
 
 /// N bodies with C coordinates each; a state lists all x, all y, …, then the velocities.
@@ -87,6 +89,7 @@ pub fn pleiades() -> Result<Problem<Attraction<7, 2>, 28>, ReferenceError> {
         end: 3.0,
         reference: array(&numbers(&data["own_reference_t3"]["state"])?)?,
         small: 1.0,
+        longest_run: LONGEST_RUN,
     })
 }
 
@@ -108,6 +111,43 @@ pub fn outer_solar_system() -> Result<Problem<Attraction<6, 3>, 36>, ReferenceEr
         end: 200_000.0,
         reference: array(&by_components(&reference))?,
         small: 1e-3,
+        longest_run: LONGEST_RUN,
+    })
+}
+
+/// The Sun with the outer planets about their centre of mass, ten thousand years.
+///
+/// # Errors
+/// The reference cannot be read.
+pub fn outer_solar_system_long() -> Result<Problem<Attraction<6, 3>, 36>, ReferenceError> {
+    let data = read("outer_solar_system_long")?;
+    Ok(Problem {
+        name: "outer-solar-system-long",
+        title: "Sun and outer planets, 10 000 years",
+        equations: Attraction { parameters: array(&numbers(&data["parameters"])?)? },
+        start: array(&numbers(&data["initial_state"])?)?,
+        end: numbers(&data["end"])?.first().copied().unwrap_or(f64::NAN),
+        reference: array(&numbers(&data["state"])?)?,
+        small: 1e-3,
+        longest_run: Duration::from_millis(500),
+    })
+}
+
+/// A hundred bodies of one mass from Plummer's model, to t = 1/2.
+///
+/// # Errors
+/// The reference cannot be read.
+pub fn cluster() -> Result<Problem<Attraction<100, 3>, 600>, ReferenceError> {
+    let data = read("cluster")?;
+    Ok(Problem {
+        name: "cluster",
+        title: "Cluster of 100 bodies, to t = 1/2",
+        equations: Attraction { parameters: array(&numbers(&data["parameters"])?)? },
+        start: array(&numbers(&data["initial_state"])?)?,
+        end: numbers(&data["end"])?.first().copied().unwrap_or(f64::NAN),
+        reference: array(&numbers(&data["state"])?)?,
+        small: 1.0,
+        longest_run: Duration::from_millis(500),
     })
 }
 

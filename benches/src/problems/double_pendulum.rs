@@ -1,7 +1,7 @@
 //! The double pendulum dropped from the horizontal.
 
 use super::reference::{array, numbers, read};
-use super::{Accelerations, Equations, Problem, ReferenceError};
+use super::{Accelerations, Equations, LONGEST_RUN, Problem, ReferenceError};
 use piola_numerics::Real;
 
 /// Two point masses on rods, angles from the downward vertical.
@@ -89,5 +89,6 @@ pub fn double_pendulum() -> Result<Problem<DoublePendulum, 4>, ReferenceError> {
         end: 10.0,
         reference: array(&numbers(&read("double_pendulum")?["T10"]["state"])?)?,
         small: 1.0,
+        longest_run: LONGEST_RUN,
     })
 }

@@ -3,7 +3,7 @@
 use piola_numerics::Real;
 
 use super::reference::{array, numbers, read};
-use super::{Accelerations, Equations, Force, Problem, ReferenceError};
+use super::{Accelerations, Equations, Force, LONGEST_RUN, Problem, ReferenceError};
 
 /// V = (x² + y²)/2 + x²y − y³/3.
 #[derive(Clone, Copy, Debug)]
@@ -49,5 +49,6 @@ pub fn henon_heiles() -> Result<Problem<HenonHeiles, 4>, ReferenceError> {
         end: 100.0,
         reference: array(&numbers(&read("henon_heiles")?["own_reference_T100"]["state"])?)?,
         small: 1.0,
+        longest_run: LONGEST_RUN,
     })
 }

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use super::{Accelerations, Equations, Force, Problem};
+use super::{Accelerations, Equations, Force, LONGEST_RUN, Problem};
 use piola_numerics::Real;
 
 /// The attraction of a fixed centre in the plane.
@@ -68,5 +68,14 @@ pub fn kepler_long() -> Problem<Kepler, 4> {
 fn orbit(name: &'static str, title: &'static str, [r, a, parameter]: [f64; 3]) -> Problem<Kepler, 4> {
     let start = [r, 0.0, 0.0, 1.0];
     let end = 20.0 * PI * (a * a * a / parameter).sqrt();
-    Problem { name, title, equations: Kepler { parameter }, start, end, reference: start, small: 1.0 }
+    Problem {
+        name,
+        title,
+        equations: Kepler { parameter },
+        start,
+        end,
+        reference: start,
+        small: 1.0,
+        longest_run: LONGEST_RUN,
+    }
 }

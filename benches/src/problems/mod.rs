@@ -4,20 +4,35 @@ mod arenstorf;
 mod attraction;
 mod double_pendulum;
 mod henon_heiles;
+mod inner_solar_system;
 mod kepler;
 mod reference;
+mod spring_chain;
+mod tops;
+
+use std::time::Duration;
 
 pub use arenstorf::{Arenstorf, arenstorf};
-pub use attraction::{Attraction, outer_solar_system, pleiades};
+pub use attraction::{Attraction, cluster, outer_solar_system, outer_solar_system_long, pleiades};
 pub use double_pendulum::{DoublePendulum, double_pendulum};
 pub use henon_heiles::{HenonHeiles, henon_heiles};
+pub use inner_solar_system::{PostNewtonianAttraction, inner_solar_system};
 pub use kepler::{Kepler, kepler, kepler_long, kepler_round};
 pub use reference::ReferenceError;
+pub use spring_chain::{SpringChain, spring_chain};
+pub use tops::{Top, free_top, heavy_top};
 
 use piola_numerics::Real;
 
+/// A run longer than this ends the curve of its method, unless a problem says otherwise.
+pub(crate) const LONGEST_RUN: Duration = Duration::from_millis(120);
+
 /// Equations of first order, ẏ = f(y), y being a block of positions and a block of velocities.
 pub trait Equations<const D: usize> {
+    /// The number of positions; all other components are velocities.
+    const POSITIONS: usize = D / 2;
+    /// Whether the rates of the positions are the velocities.
+    const SECOND_ORDER: bool = true;
     /// Writes f(y).
     fn rate(&self, y: &[f64; D], rate: &mut [f64; D]);
 }
@@ -54,15 +69,21 @@ pub struct Problem<E, const D: usize> {
     /// The size of the smaller of both blocks of the state: absolute tolerances are relative to it where a
     /// method wants one.
     pub small: f64,
+    /// A longer run ends the curve of its method.
+    pub longest_run: Duration,
 }
 
-impl<E, const D: usize> Problem<E, D> {
+impl<E: Equations<D>, const D: usize> Problem<E, D> {
     /// The error of a final state: the largest difference of a component, relative to the largest component
     /// of its block (positions or velocities).
+    ///
+    /// # Panics
+    /// The state has fewer than D components.
     #[must_use]
     pub fn error(&self, state: &[f64]) -> f64 {
         let mut error = 0.0_f64;
-        for (found, expected) in state.chunks(D / 2).zip(self.reference.chunks(D / 2)) {
+        for block in [0..E::POSITIONS, E::POSITIONS..D] {
+            let (found, expected) = (&state[block.clone()], &self.reference[block]);
             let scale = expected.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
             for (found, expected) in found.iter().zip(expected) {
                 let difference = (found - expected).abs() / scale;

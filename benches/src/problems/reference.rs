@@ -1,4 +1,4 @@
-//! Reading the files of `testdata/reference`.
+//! Reading the files of `testdata`.
 
 use std::path::Path;
 
@@ -8,7 +8,15 @@ use serde_json::Value;
 pub type ReferenceError = Box<dyn std::error::Error>;
 
 pub(super) fn read(name: &str) -> Result<Value, ReferenceError> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../testdata/reference");
+    read_from("reference", name)
+}
+
+pub(super) fn read_golden(name: &str) -> Result<Value, ReferenceError> {
+    read_from("golden", name)
+}
+
+fn read_from(kind: &str, name: &str) -> Result<Value, ReferenceError> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../testdata").join(kind);
     let path = folder.join(name).with_extension("json");
     let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
     Ok(serde_json::from_str(&text)?)

@@ -1,4 +1,5 @@
 //! The benches' own tests.
 
 mod constitutive;
+mod error_bars;
 mod stability;

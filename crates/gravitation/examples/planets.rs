@@ -5,7 +5,8 @@
 //! ```
 //!
 //! The error is the largest of 1000 times of the run, relative to the energy at the start. The time is that of the fastest of
-//! 200 runs of 1000 steps, with one corrector at either end.
+//! 200 runs of 1000 steps, with one corrector at either end. Collocation at Radau's nodes to rounding, the method of IAS15, has the
+//! last row: its step is the mean, its time that of the fastest of 20 runs of 10⁵ days.
 #![expect(clippy::print_stdout, reason = "it prints its table")]
 
 mod outer_solar_system;
@@ -17,7 +18,7 @@ use outer_solar_system::outer_solar_system;
 use piola_gravitation::Gravitation;
 use piola_gravitation::hybrid::HybridSymplectic;
 use piola_gravitation::wisdom_holman::{Corrector, DemocraticHeliocentric, Splitting, WisdomHolman};
-use piola_integrators::{State, Step, unobserved};
+use piola_integrators::{GaussRadau15, State, Step, unobserved};
 
 /// 10⁴ years in days.
 const END: f64 = 3_652_500.0;
@@ -106,5 +107,29 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             }
         }
     }
+    gauss_radau()
+}
+
+/// The row of collocation at Radau's nodes.
+fn gauss_radau() -> Result<(), Box<dyn std::error::Error>> {
+    const SPAN: f64 = 100_000.0;
+    let (mut bodies, start) = outer_solar_system()?;
+    let reader = bodies.clone();
+    let energy = reader.invariants(&start).energy;
+    let (mut seconds, mut steps) = (f64::INFINITY, 0.0);
+    for _ in 0..20 {
+        let mut state = State::new(0.0, start.clone())?;
+        let began = Instant::now();
+        let report = GaussRadau15::to_rounding().integrate_to(&mut bodies, &mut state, SPAN)?;
+        seconds = seconds.min(began.elapsed().as_secs_f64());
+        steps = report.steps as f64;
+    }
+    let (mut state, mut largest) = (State::new(0.0, start)?, 0.0_f64);
+    for part in 1..=1000 {
+        GaussRadau15::to_rounding().integrate_to(&mut bodies, &mut state, END * f64::from(part) / 1000.0)?;
+        largest = largest.max((reader.invariants(&state.values).energy / energy - 1.0).abs());
+    }
+    let (step, each, day) = (SPAN / steps, 1e9 * seconds / steps, 1e9 * seconds / SPAN);
+    println!("| barycentric | GaussRadau15, to rounding | {step:.0} | {each:.0} | {day:.2} | {largest:.1e} |");
     Ok(())
 }

@@ -21,6 +21,7 @@ macro_rules! follow_over {
 
         impl<$($generics)*> SecondOrder<$scalar> for Gravitation {
             type Error = GravitationError;
+            const OWN_MAGNITUDES: bool = true;
             fn is_velocity_dependent(&self) -> bool {
                 self.post_newtonian().is_some()
             }
@@ -37,6 +38,9 @@ macro_rules! follow_over {
             ) -> Result<(), GravitationError> {
                 self.$accelerations(q, acceleration)?;
                 self.add_post_newtonian(q, v, acceleration)
+            }
+            fn magnitudes(&self, state: &[$scalar], magnitudes: &mut [f64]) {
+                self.magnitudes(state, magnitudes);
             }
         }
 

@@ -3,6 +3,7 @@
 use piola_numerics::Real;
 
 use crate::IntegratorsError;
+use crate::field::magnitudes_of_blocks;
 
 /// A system of second order q̈ = f(t, q, q̇), over any scalar, the time too.
 ///
@@ -43,6 +44,9 @@ pub trait SecondOrder<T: Real = f64> {
     ///
     /// A run refuses a value that differs from [`freedom`](Self::freedom).
     const FREEDOM: Option<usize> = None;
+    /// Whether [`magnitudes`](Self::magnitudes) is written for this type. The default is no: a method then compares errors with the
+    /// largest position and the largest velocity, which costs it nothing for each component.
+    const OWN_MAGNITUDES: bool = false;
     /// Whether this very system's f depends on q̇. The default is what its type says; a system that decides when it is made, as
     /// one with optional velocity-dependent forces, says so here.
     fn is_velocity_dependent(&self) -> bool {
@@ -55,6 +59,12 @@ pub trait SecondOrder<T: Real = f64> {
     /// # Errors
     /// Whatever makes the acceleration undefined at (t, q, q̇).
     fn acceleration(&mut self, t: T, q: &[T], v: &[T], acceleration: &mut [T]) -> Result<(), Self::Error>;
+    /// Writes the magnitude against which the error of each component of (q, q̇) is relative, as
+    /// [`Field::magnitudes`](crate::Field::magnitudes). The Nyström pairs call it where
+    /// [`OWN_MAGNITUDES`](Self::OWN_MAGNITUDES) is set; the other methods compare with the largest of each block.
+    fn magnitudes(&self, state: &[T], magnitudes: &mut [f64]) {
+        magnitudes_of_blocks(state, magnitudes);
+    }
 }
 
 /// Refuses a system whose number of coordinates differs from the one its type states.

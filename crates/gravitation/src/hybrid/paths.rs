@@ -1,12 +1,15 @@
-//! Bounds on how near two planets come in a time, from the ends of their Keplerian arcs.
+//! Whether two planets certainly stay further apart than a distance while each moves along an arc of Kepler's motion.
+//!
+//! An arc is compared with two simple curves. The chord is run through at constant velocity from one end of the arc to the other.
+//! The cubic agrees with the arc in the positions and velocities of both ends. After a time τ along the arc:
 //!
 //! ```text
 //! |x(t) − chord(t)| ≤ τ²/8 max|ẍ|              |x(t) − cubic(t)| ≤ τ⁴/384 max|x⁗|
 //! |ẍ| = μ/r²                                  |x⁗| ≤ 2μ²/r⁵ + 6μ v²/r⁴
 //! ```
 //!
-//! The cubic has the places and the velocities of both ends. Its own distance from the origin is bounded by the control points of
-//! Bézier's form, on ever shorter parts.
+//! The difference of two cubics is a cubic again. Its control points in Bézier's form bound its distance from the origin. Where
+//! that bound does not decide, the cubic is halved, and each half is examined in the same way.
 
 use core::f64::consts::PI;
 

@@ -17,7 +17,7 @@ pub(super) struct Group {
     pub(super) velocity_carry: Block,
 }
 
-/// What does not change in a run.
+/// The masses of all bodies, and the sums of masses that the steps of a run use.
 #[derive(Clone, Debug)]
 pub(super) struct Masses {
     /// Gm of the central body.

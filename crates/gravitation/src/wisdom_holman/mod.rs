@@ -45,7 +45,6 @@ mod steps;
 
 use core::ops::ControlFlow;
 
-use piola_integrators::internal::equal_steps;
 use piola_integrators::{Ending, IntegratorsError, Report, State, Step, unobserved};
 use piola_numerics::Real;
 
@@ -56,6 +55,7 @@ use crate::check::{check_finite, check_length};
 use crate::{Gravitation, GravitationError};
 use alternation::Parts;
 use jacobi::{Coordinates, Masses};
+use run::Course;
 use steps::{Memory, Moving};
 
 /// The map of Wisdom and Holman with a fixed step.
@@ -71,8 +71,7 @@ use steps::{Memory, Moving};
 #[doc(alias("WHFast", "mixed-variable symplectic"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WisdomHolman {
-    step: f64,
-    splitting: Splitting,
+    course: Course,
 }
 
 /// Steps between two looks for numbers that are not finite.
@@ -83,23 +82,23 @@ impl WisdomHolman {
     ///
     /// # Errors
     /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
-    pub fn new(step: f64, splitting: Splitting) -> Result<Self, IntegratorsError> {
-        if !(0.0 < step && step < f64::INFINITY) {
-            return Err(IntegratorsError::InvalidStep { step });
+    pub const fn new(step: f64, splitting: Splitting) -> Result<Self, IntegratorsError> {
+        match Course::new(step, splitting) {
+            Ok(course) => Ok(Self { course }),
+            Err(error) => Err(error),
         }
-        Ok(Self { step, splitting })
     }
 
     /// The longest step, s.
     #[must_use]
     pub const fn step(&self) -> f64 {
-        self.step
+        self.course.step
     }
 
     /// The sequence of motions and attractions in a step.
     #[must_use]
     pub const fn splitting(&self) -> Splitting {
-        self.splitting
+        self.course.splitting
     }
 
     /// Integrates to `end` in equal steps no longer than [`step`](Self::step), unobserved.
@@ -134,17 +133,15 @@ impl WisdomHolman {
         shown: u64,
         mut observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<GravitationError>> {
-        let start = state.time;
-        check(bodies, &state.values).map_err(|source| IntegratorsError::Field { t: start, source })?;
-        let (count, h) = equal_steps(start, end, self.step)?;
+        let steps = self.course.begin(bodies, state, end)?;
         let mut report = Report::begin();
-        if count == 0 {
+        if steps.count == 0 {
             return Ok(report);
         }
-        let mut run = Run::new(bodies.parameters(), &state.values, h, self.splitting);
+        let (count, h, splitting) = (steps.count, steps.length, self.course.splitting);
+        let mut run = Run::new(bodies.parameters(), &state.values, h, splitting);
         run.enter();
         let mut values = state.values.clone();
-        let time = |steps: u64| if steps == count { end } else { start + h * steps as f64 };
         while report.steps < count {
             let until_shown = match shown {
                 0 => count,
@@ -153,24 +150,24 @@ impl WisdomHolman {
             let made = until_shown.min(count - report.steps).min(UNWATCHED);
             let good = run.advance(made);
             report.steps += good;
-            report.evaluations += good * self.splitting.attractions() as u64;
+            report.evaluations += good * splitting.attractions() as u64;
             let number = report.steps;
             let is_shown = number == count || (0 < shown && number.is_multiple_of(shown));
             if good < made || is_shown {
                 run.show(h * number as f64, &mut values);
             }
             if good < made {
-                let t = Some(time(number));
+                let t = Some(steps.time(number));
                 let (index, value) = run.not_finite;
-                *state = State::new(time(number), values).map_err(IntegratorsError::with_field_error)?;
+                *state = State::new(steps.time(number), values).map_err(IntegratorsError::with_field_error)?;
                 return Err(IntegratorsError::NotFinite { quantity: "state", index, value, t });
             }
-            if is_shown && observer(Step { number, time: time(number), values: &values }).is_break() {
+            if is_shown && observer(Step { number, time: steps.time(number), values: &values }).is_break() {
                 report.ending = Ending::Stopped;
                 break;
             }
         }
-        *state = State::new(time(report.steps), values).map_err(IntegratorsError::with_field_error)?;
+        *state = State::new(steps.time(report.steps), values).map_err(IntegratorsError::with_field_error)?;
         Ok(report)
     }
 }

@@ -50,6 +50,24 @@ pub(crate) struct Course {
     pub(crate) splitting: Splitting,
 }
 
+/// The equal steps of one run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct EqualSteps {
+    start: f64,
+    end: f64,
+    /// How many.
+    pub(crate) count: u64,
+    /// The length of each, s; negative in a run backwards.
+    pub(crate) length: f64,
+}
+
+impl EqualSteps {
+    /// The time after so many of them; after the last, exactly the end.
+    pub(crate) fn time(&self, steps: u64) -> f64 {
+        if steps == self.count { self.end } else { self.start + self.length * steps as f64 }
+    }
+}
+
 impl Course {
     pub(crate) const fn new(step: f64, splitting: Splitting) -> Result<Self, IntegratorsError> {
         if !(0.0 < step && step < f64::INFINITY) {
@@ -63,6 +81,23 @@ impl Course {
         self.splitting.stages().attractions.iter().fold(0.0, |longest, part| part.abs().max(longest)) * self.step
     }
 
+    /// The equal steps from a state to `end`, after the checks that every run begins with.
+    pub(crate) fn begin<T: Real>(
+        self,
+        bodies: &Gravitation,
+        state: &State<T>,
+        end: f64,
+    ) -> Result<EqualSteps, Failure> {
+        let start = state.time;
+        check(bodies, &state.values).map_err(|source| IntegratorsError::Field { t: start, source })?;
+        if !(end.is_finite() && start.is_finite()) {
+            let (quantity, value) = if start.is_finite() { ("end", end) } else { ("t", start) };
+            return Err(IntegratorsError::NotFinite { quantity, index: 0, value, t: None });
+        }
+        let (count, length) = equal_steps(start, end, self.step)?;
+        Ok(EqualSteps { start, end, count, length })
+    }
+
     /// Integrates to `end` in equal steps. The observer sees every `shown`-th step and the last.
     pub(crate) fn integrate<T: Real, N: Near<T>>(
         self,
@@ -73,20 +108,15 @@ impl Course {
         shown: u64,
         mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, Failure> {
-        let start = state.time;
-        check(bodies, &state.values).map_err(|source| IntegratorsError::Field { t: start, source })?;
-        if !(end.is_finite() && start.is_finite()) {
-            let (quantity, value) = if start.is_finite() { ("end", end) } else { ("t", start) };
-            return Err(IntegratorsError::NotFinite { quantity, index: 0, value, t: None });
-        }
-        let (count, h) = equal_steps(start, end, self.step)?;
+        let steps = self.begin(bodies, state, end)?;
         let mut report = Report::begin();
-        if count == 0 {
+        if steps.count == 0 {
             return Ok(report);
         }
+        let (start, count, h) = (steps.start, steps.count, steps.length);
         let mut run = Run::new(near, bodies.parameters(), &state.values, h, self.splitting);
         let mut values = state.values.clone();
-        let time = |steps: u64| if steps == count { end } else { start + h * steps as f64 };
+        let time = |number: u64| steps.time(number);
         // The steps after which the state is `values`.
         let mut reached = 0;
         let mut failure = run.enter(start).err();
@@ -115,9 +145,9 @@ impl Course {
             }
         }
         // Where the last good step cannot be shown, the state is the one that was shown last.
-        let steps = report.steps;
-        if reached < steps && run.show(h * steps as f64, time(steps), &mut values).is_ok() {
-            reached = steps;
+        let last = report.steps;
+        if reached < last && run.show(h * last as f64, time(last), &mut values).is_ok() {
+            reached = last;
         }
         if 0 < reached {
             *state = State::new(time(reached), values).map_err(IntegratorsError::with_field_error)?;

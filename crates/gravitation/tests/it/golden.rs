@@ -67,6 +67,19 @@ fn figure_eight_follows_reference_trajectory() {
         let mut bodies = Gravitation::new(vec![1.0; 3]).unwrap();
         let reader = bodies.clone();
         let start = in_space(&reader, &golden::vector(&case["initial_state"]));
+        // At the start and in every state of the reference.
+        let states = case["states"].as_array().unwrap().iter().map(|state| golden::vector(&state["state"]));
+        for state in states.map(|state| in_space(&reader, &state)).chain([start.clone()]) {
+            let (found, expected) = (reader.invariants(&state), &case["invariants"]);
+            let check = |what: &str, found: &[f64], expected: &[f64], size: f64| {
+                assert_close_at_scale(what, found, expected, size, Tol::ulps(8.0));
+            };
+            check("energy", &[found.energy], &[golden::number(&expected["energy"])], found.energy.abs());
+            let momentum = golden::vector(&expected["momentum"]);
+            check("momentum", &found.momentum[..2], &momentum, found.momentum_scale);
+            let moment = golden::number(&expected["angular_momentum"]);
+            check("angular momentum", &found.angular_momentum, &[0.0, 0.0, moment], found.angular_momentum_scale);
+        }
         follow_field(&case, &mut bodies, start, 0.005, |state| in_plane(&reader, state, 3));
     }
 }

@@ -25,6 +25,55 @@ fn position_equals_golden_trajectory() {
     assert!(0 < seen);
 }
 
+/// Every invariant of the reference, and the eccentric anomaly of every state.
+#[test]
+fn elements_equal_the_invariants_of_the_golden_trajectory() {
+    let golden = golden::load("trajectories");
+    let mut seen = 0;
+    for case in golden.cases.iter().filter(|case| golden::text(&case["system"]) == "kepler") {
+        let (start, gm) = (golden::vector(&case["initial_state"]), golden::number(&case["parameters"]["mu"]));
+        let invariant = |name: &str| golden::number(&case["invariants"][name]);
+        let motion = KeplerMotion::new(gm, [start[0], start[1], 0.0], [start[2], start[3], 0.0])
+            .unwrap_or_else(|error| panic!("{error}"));
+        let (a, e) = (motion.semi_major_axis(), motion.eccentricity());
+        let condition = (1.0 + e) / (1.0 - e);
+        let check = |what: &str, found: f64, size: f64| {
+            assert_close_at_scale(what, &[found], &[invariant(what)], size, Tol::ulps(4.0).times(condition));
+        };
+        check("semi_major_axis", a, a);
+        check("eccentricity", e, 1.0);
+        check("period", motion.period(), motion.period());
+        check("energy", -0.5 * gm / a, 0.5 * gm / a);
+        check("angular_momentum", (gm * a * (1.0 - e * e)).sqrt(), (gm * a).sqrt());
+        let (argument, anomaly) = (invariant("argument_of_pericentre"), invariant("mean_anomaly_at_0"));
+        let towards = golden::vector(&case["invariants"]["eccentricity_vector"]);
+        let expected = [e * argument.cos(), e * argument.sin()];
+        assert_close_at_scale("eccentricity_vector", &expected, &towards, 1.0, Tol::ulps(4.0).times(condition));
+        let elements = Elements {
+            semi_major_axis: a,
+            eccentricity: e,
+            inclination: 0.0,
+            ascending_node: 0.0,
+            argument_of_pericentre: argument,
+            mean_anomaly: anomaly,
+        };
+        let (position, velocity) = elements.state(gm);
+        let tolerance = Tol::ulps(4.0).times(condition);
+        assert_close_at_scale("the start", &position[..2], &start[..2], a, tolerance);
+        assert_close_at_scale("its velocity", &velocity[..2], &start[2..], velocity[0].hypot(velocity[1]), tolerance);
+        for state in case["states"].as_array().into_iter().flatten() {
+            let (sine, cosine) = golden::number(&state["E_anomaly"]).sin_cos();
+            let (along, across) = (a * (cosine - e), a * (1.0 - e * e).sqrt() * sine);
+            let (s, c) = argument.sin_cos();
+            let expected = [c * along - s * across, s * along + c * across];
+            let position = motion.position(golden::number(&state["t"]));
+            assert_close_at_scale("position of E", &position[..2], &expected, a, tolerance.times(2.0));
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 12);
+}
+
 #[test]
 fn position_after_a_thousand_periods_equals_the_first_one() {
     let motion =

@@ -4,11 +4,12 @@ use core::ops::ControlFlow;
 
 use piola_gravitation::{Gravitation, GravitationInvariants, PostNewtonian, SPEED_OF_LIGHT};
 use piola_integrators::{Composition, GaussLegendre, Order, State};
-use piola_testkit::golden;
+use piola_testkit::{golden, ulps_between};
 use serde_json::Value;
 
 const DAY: f64 = 86_400.0;
 const EPOCHS: [f64; 3] = [30.0, 365.0, 3650.0];
+const EARTH: usize = 3;
 const MOON: usize = 4;
 
 struct SolarSystem {
@@ -89,6 +90,12 @@ fn newtonian_solar_system_equals_prediction_and_keeps_its_invariants() {
             let error = distance(reader.position(&state.values, body), triple(expected));
             assert!(error < 1.0, "body {body} after {epoch} days: {error} m");
         }
+        let velocities = predicted["velocities"].as_array().expect("velocities");
+        for (body, expected) in velocities.iter().enumerate() {
+            let error = distance(reader.velocity(&state.values, body), triple(expected));
+            // A metre at the fastest rate, that of the Moon about the Earth, 2.7e-6 rad/s.
+            assert!(error < 2.7e-6, "body {body} after {epoch} days: {error} m/s");
+        }
     }
     for (what, values) in [("energy", &drift.energy), ("momentum", &drift.momentum), ("moment", &drift.moment)] {
         let (drift, growth) = (largest(values), linear_growth(&drift.days, values).abs());
@@ -97,6 +104,40 @@ fn newtonian_solar_system_equals_prediction_and_keeps_its_invariants() {
         // A systematic error of one in 2⁵³ a step would grow to 8e-13.
         assert!(growth < 2e-14, "{what} grows by {growth:e} of {drift:e}");
     }
+}
+
+/// The data themselves: epochs, names, parameters, and how far the prediction is from the ephemeris.
+#[test]
+fn prediction_differs_from_the_ephemeris_by_the_stated_distances() {
+    let cases = golden::load("solar_system").cases;
+    let ephemeris: Vec<&Value> = cases.iter().filter(|case| case["kind"] == "ephemeris").collect();
+    let prediction = cases.iter().find(|case| case["kind"] == "newtonian_prediction").expect("the prediction");
+    let start = ephemeris[0]["bodies"].as_array().expect("bodies");
+    assert!(golden::number(&prediction["initial_state_days"]).abs() <= 0.0);
+    for (index, entry) in start.iter().enumerate() {
+        assert_eq!(golden::text(&entry["body"]), golden::text(&prediction["bodies"][index]));
+        let [listed, used] = [&entry["GM"], &prediction["GM_used"][index]].map(golden::number);
+        assert!(ulps_between(listed, used) <= 2.0, "{listed} and {used}");
+    }
+    let mut compared = 0;
+    for predicted in prediction["predictions"].as_array().expect("three epochs") {
+        let days = golden::number(&predicted["days_after"]);
+        let case = ephemeris.iter().find(|case| (golden::number(&case["days_after"]) - days).abs() < 0.5);
+        let case = case.expect("the epoch");
+        assert!((golden::number(&case["jd_tdb"]) - 2_451_545.0 - days).abs() <= 0.0, "epoch {days}");
+        for (index, entry) in case["bodies"].as_array().expect("bodies").iter().enumerate() {
+            let stated = golden::number(&predicted["difference_to_de421_m"][index]);
+            let found = distance(triple(&predicted["positions"][index]), triple(&entry["position"]));
+            // Positions are rounded to half an ulp of 7e12 m, some 1e-3 m with both and their components.
+            assert!(
+                (found - stated).abs() < 2e-3,
+                "{} after {days}: {found} and {stated}",
+                golden::text(&entry["body"])
+            );
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 33);
 }
 
 #[test]
@@ -120,6 +161,18 @@ fn post_newtonian_solar_system_equals_ephemeris() {
             let error = distance(x, e) / distance(e, [0.0; 3]);
             let allowed = if body == MOON { 1.5e-6 } else { 3e-8 };
             assert!(error < allowed, "{} after {epoch} days: {error:e}", golden::text(&entry["body"]));
+            // Velocities relative to the speed about the Sun. The Moon moves the Earth with an 81st part of its own error.
+            let own = |x: [f64; 3], sun: &Value| relative(x, triple(&sun["velocity"]));
+            let sun = reader.velocity(&state.values, 0);
+            let v = relative(reader.velocity(&state.values, body), sun);
+            let e = own(triple(&entry["velocity"]), &expected[0]);
+            let error = distance(v, e) / distance(e, [0.0; 3]);
+            let allowed = match body {
+                MOON => 2e-5,
+                EARTH => 2e-5 / 81.0,
+                _ => 3e-8,
+            };
+            assert!(error < allowed, "velocity of {} after {epoch} days: {error:e}", golden::text(&entry["body"]));
         }
     }
 }

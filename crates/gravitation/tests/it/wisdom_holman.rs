@@ -247,3 +247,15 @@ fn splitting_is_read_as_it_was_written() {
         assert_eq!(serde_json::from_str::<Splitting>(&text).unwrap(), splitting);
     }
 }
+
+#[test]
+fn end_that_is_not_finite_is_refused_by_name() {
+    let bodies = Gravitation::new(vec![1.0, 1e-3]).unwrap();
+    let start = bodies.state(&[[0.0; 3], [1.0, 0.0, 0.0]], &[[0.0; 3], [0.0, 1.0, 0.0]]).unwrap();
+    let mut state = State::new(0.0, start.clone()).unwrap();
+    for end in [f64::NAN, f64::INFINITY] {
+        let result = WisdomHolman::new(0.1, Splitting::Leapfrog).unwrap().integrate_to(&bodies, &mut state, end);
+        assert!(matches!(result, Err(IntegratorsError::NotFinite { quantity: "end", index: 0, .. })), "{result:?}");
+        assert_eq!(state.values, start);
+    }
+}

@@ -66,8 +66,9 @@ pub trait NystromCoefficients: Copy + core::fmt::Debug {
 /// An explicit Nyström method with adaptive steps: [`Nystrom86`] or [`Nystrom1210`].
 ///
 /// # Accuracy
-/// The local error of each step is below the tolerance, relative to the largest position and to the largest velocity. The
-/// state and the time are summed with compensation. [Tolerances below rounding](Tolerance#tolerances-below-rounding) are raised.
+/// The local error of each step is below the tolerance, relative to the largest position and to the largest velocity, or to the
+/// magnitudes of the system where it has its own ([`SecondOrder::magnitudes`]). The state and the time are summed with
+/// compensation. [Tolerances below rounding](Tolerance#tolerances-below-rounding) are raised.
 ///
 /// # Example
 /// ```
@@ -105,6 +106,9 @@ pub struct Nystrom<P, T = f64> {
     /// The largest position and the largest velocity, at the start of a step and at its end.
     magnitudes: [f64; 2],
     magnitudes_at_end: [f64; 2],
+    /// Those of each component, of a system that has its own.
+    own_magnitudes: Vec<f64>,
+    own_magnitudes_at_end: Vec<f64>,
     pair: PhantomData<P>,
 }
 
@@ -211,6 +215,8 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
             freedom: 0,
             magnitudes: [0.0; 2],
             magnitudes_at_end: [0.0; 2],
+            own_magnitudes: Vec::new(),
+            own_magnitudes_at_end: Vec::new(),
             pair: PhantomData,
         }
     }

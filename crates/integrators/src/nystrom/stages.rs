@@ -44,7 +44,12 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
         };
         self.spread.resize(4 * n, 0.0);
         let (at_start, at_trial) = self.spread.split_at_mut(2 * n);
-        spread(self.magnitudes, at_start);
+        if F::OWN_MAGNITUDES {
+            at_start.copy_from_slice(&self.own_magnitudes);
+        } else {
+            spread(self.magnitudes, at_start);
+        }
+        let field = core::cell::RefCell::new(field);
         let guess = Guess {
             tolerance: self.tolerance,
             longest_step: self.limits.longest_step,
@@ -57,9 +62,12 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
         let evaluate = |t: f64, y: &[T], rate: &mut [T]| {
             let (velocity, acceleration) = rate.split_at_mut(n);
             velocity.copy_from_slice(&y[n..]);
-            evaluate(field, t, &y[..n], acceleration)
+            evaluate(*field.borrow_mut(), t, &y[..n], acceleration)
         };
-        guess.first_step(state, span, report, P::root, evaluate, |y, all| spread(magnitudes(y), all))
+        let magnitudes_of = |y: &[T], all: &mut [f64]| {
+            if F::OWN_MAGNITUDES { field.borrow().magnitudes(y, all) } else { spread(magnitudes(y), all) }
+        };
+        guess.first_step(state, span, report, P::root, evaluate, magnitudes_of)
     }
 
     /// The end of the step, and its error over the tolerance.
@@ -68,7 +76,7 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
     /// e = √(Σᵢ (eᵢ/allowedᵢ)² / 2n)
     /// ```
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn finish<F: SecondOrder<T>>(&mut self, state: &State<T>, h: f64) -> f64 {
+    fn finish<F: SecondOrder<T>>(&mut self, field: &F, state: &State<T>, h: f64) -> f64 {
         let n = F::FREEDOM.unwrap_or(self.freedom);
         let (k, rest) = self.memory[..(P::STAGES + Rows::COUNT) * n].split_at_mut(P::STAGES * n);
         let (ends, errors) = rest.split_at_mut(Rows::LEGENDRE * n);
@@ -88,9 +96,22 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
             (trial[n + i], trial_carry[n + i]) = (values[n + i], carry[n + i]);
             compensated_add(&mut trial[n + i], &mut trial_carry[n + i], gained);
         }
-        self.magnitudes_at_end = magnitudes(trial);
         let (absolute, relative) = (self.tolerance.absolute_part(), self.tolerance.relative_part());
         let mut sum = 0.0;
+        if F::OWN_MAGNITUDES {
+            let (before, after) = (&self.own_magnitudes[..2 * n], &mut self.own_magnitudes_at_end[..2 * n]);
+            field.magnitudes(trial, after);
+            for i in 0..2 * n {
+                let (error, factor) = if i < n { (position_error[i], h * h) } else { (velocity_error[i - n], h.abs()) };
+                let error = largest_lane(error);
+                if error.is_nan() || 0.0 < error {
+                    let part = error * (factor / (absolute + relative * before[i].max(after[i])));
+                    sum += part * part;
+                }
+            }
+            return (sum / (2 * n).max(1) as f64).sqrt();
+        }
+        self.magnitudes_at_end = magnitudes(trial);
         let blocks = [(&*position_error, h * h), (&*velocity_error, h.abs())];
         for ((errors, factor), (&before, &after)) in
             blocks.into_iter().zip(self.magnitudes.iter().zip(&self.magnitudes_at_end))
@@ -137,6 +158,11 @@ impl<P: NystromPair, T: Real, F: SecondOrder<T>> EmbeddedPair<T, F> for Nystrom<
         if span.abs() <= 0.0 {
             return Ok(0.0);
         }
+        if F::OWN_MAGNITUDES {
+            self.own_magnitudes.resize(2 * n, 0.0);
+            self.own_magnitudes_at_end.resize(2 * n, 0.0);
+            field.magnitudes(&state.values, &mut self.own_magnitudes);
+        }
         let first = &mut self.memory[..n];
         if let Some(Checkpoint { memory, numbers, .. }) = resumed {
             first.copy_from_slice(memory);
@@ -177,7 +203,7 @@ impl<P: NystromPair, T: Real, F: SecondOrder<T>> EmbeddedPair<T, F> for Nystrom<
             report.evaluations += 1;
             evaluate(field, t + part, argument, row_mut(k, number, n))?;
         }
-        let error = self.finish::<F>(state, h);
+        let error = self.finish(&*field, state, h);
         let (k, rest) = self.memory.split_at_mut(P::STAGES * n);
         if error.is_nan() {
             for number in 1..=P::ROWS.len() {
@@ -218,6 +244,7 @@ impl<P: NystromPair, T: Real, F: SecondOrder<T>> EmbeddedPair<T, F> for Nystrom<
         let (first, rest) = self.memory.split_at_mut(n);
         first.copy_from_slice(row(rest, P::END - 1, n));
         self.magnitudes = self.magnitudes_at_end;
+        core::mem::swap(&mut self.own_magnitudes, &mut self.own_magnitudes_at_end);
         Ok(())
     }
 }

@@ -42,6 +42,47 @@ fn motion_follows_its_reference() {
     assert_eq!(compared, 8);
 }
 
+/// The invariants of the reference, and its closed form in Jacobi's functions by period and parameter.
+#[test]
+fn invariants_and_period_are_those_of_the_reference() {
+    let golden = golden::load("trajectories");
+    let mut compared = 0;
+    for case in golden.cases.iter().filter(|case| golden::text(&case["system"]) == "free_rigid_body") {
+        let start = golden::vector(&case["initial_state"]);
+        let inertia = Inertia::principal([1.0, 2.0, 3.0]).unwrap();
+        let attitude = Attitude::from_matrix(&Matrix3::from_row_slice(&start[3..])).unwrap();
+        let motion = FreeRotation::new(&inertia, attitude, Vector3::from_column_slice(&start[..3])).unwrap();
+        let expected = &case["invariants"];
+        for t in [0.0, 0.1, 1.0, 5.0, 10.0] {
+            let (attitude, omega) = motion.at(t);
+            let spin = inertia.times(&omega);
+            let energy = 0.5 * omega.dot(&spin);
+            let tolerance = Tol::ulps(32.0);
+            assert_close("energy", &[energy], &[golden::number(&expected["energy"])], tolerance);
+            assert_close("|H|²", &[spin.norm_squared()], &[golden::number(&expected["H_squared"])], tolerance);
+            let in_space = attitude.to_space(&spin);
+            assert_close("H", in_space.as_slice(), &golden::vector(&expected["H_space"]), tolerance);
+            compared += 1;
+        }
+        let jacobi = &case["jacobi"];
+        let of = |name: &str| golden::number(&jacobi[name]);
+        // 4K(m)/p by the arithmetic-geometric mean.
+        let (mut a, mut b) = (1.0, (1.0 - of("m_parameter")).sqrt());
+        for _ in 0..6 {
+            (a, b) = (0.5 * (a + b), f64::sqrt(a * b));
+        }
+        let period = 2.0 * std::f64::consts::PI / (a * of("rate"));
+        let tolerance = Tol::ulps(16.0).times(1.0 / (1.0 - of("m_parameter")));
+        assert_close("period", &[motion.period()], &[period], tolerance);
+        let (size, half) = ([of("w1m"), of("w2m"), of("w3m")], motion.at(0.5 * motion.period()).1);
+        for i in 0..3 {
+            assert!(half[i].abs() <= size[i] * (1.0 + 64.0 * f64::EPSILON), "ω{i} = {} of {}", half[i], size[i]);
+        }
+        assert!(golden::text(&jacobi["form"]).contains("cn") && of("u0").is_finite());
+    }
+    assert_eq!(compared, 10);
+}
+
 /// Ten million steps of a hundredth of a radian, each evaluated from the start; every thousandth is looked at.
 #[test]
 fn energy_and_angular_momentum_are_kept_for_ten_million_steps() {

@@ -3,12 +3,12 @@
 use core::ops::ControlFlow;
 use std::collections::HashMap;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Vector3};
 use piola_integrators::{DormandPrince853, Field, GaussLegendre, Order, State, Tolerance};
-use piola_kinematics::{Attitude, Inertia, RigidBody};
+use piola_kinematics::{Attitude, Inertia, Placement, RigidBody};
 use piola_lagrangian::rigid_motion::RigidRotation;
 use piola_lagrangian::{Forces, Holonomic, Lagrangian, Potential};
-use piola_numerics::Real;
+use piola_numerics::{Dual, Real};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, assert_each_close_at_scales, golden};
 use serde_json::Value;
 
@@ -223,6 +223,81 @@ fn follow<S: Holonomic, P: Potential>(case: &Value, lagrangian: &Lagrangian<S, P
             assert_close_at_scale(&what, &state.values, &values, 1.0, allowed(case, index));
         }
     }
+}
+
+/// Collects the places of particles.
+struct ParticlePlaces<T>(Vec<[T; 3]>);
+
+impl<T: Real> Placement<T> for ParticlePlaces<T> {
+    fn particle(&mut self, _mass: f64, position: Vector3<T>) {
+        self.0.push(position.into());
+    }
+    fn body(&mut self, _body: &RigidBody, _centre: Vector3<T>, _attitude: Attitude<T>) {}
+}
+
+/// Energy, momenta and places in every state of the reference, where it states them.
+fn check_invariants<S: Holonomic, P: Potential>(case: &Value, lagrangian: &Lagrangian<S, P>) -> usize {
+    let name = golden::text(&case["name"]);
+    let names: Vec<&str> = case["state_names"].as_array().unwrap().iter().map(golden::text).collect();
+    let n = names.len() / 2;
+    let mut checked = 0;
+    for state in case["states"].as_array().unwrap() {
+        let (t, values) = (golden::number(&state["t"]), golden::vector(&state["state"]));
+        let (q, v) = values.split_at(n);
+        let momenta = lagrangian.momenta(q, v, t).unwrap();
+        let energies = lagrangian.energies(q, v, t).unwrap();
+        // The coordinates are rounded: the condition of the energy is the work of an ulp of each.
+        let size = energies.kinetic.abs() + energies.potential.abs();
+        for (invariant, expected) in case["invariants"].as_object().unwrap() {
+            let (found, size) = match invariant.strip_prefix("p_") {
+                None => (energies.total(), size),
+                Some(coordinate) => {
+                    let index = names.iter().position(|name| *name == coordinate).unwrap();
+                    (momenta[index], momenta.amax())
+                }
+            };
+            let what = format!("{name} at {t}: {invariant}");
+            assert_close_at_scale(&what, &[found], &[golden::number(expected)], size, Tol::ulps(64.0));
+            checked += 1;
+        }
+        if state.get("momenta").is_some() {
+            let what = format!("{name} at {t}: momenta");
+            assert_close_at_scale(
+                &what,
+                momenta.as_slice(),
+                &golden::vector(&state["momenta"]),
+                momenta.amax(),
+                Tol::ulps(64.0),
+            );
+            checked += 1;
+        }
+        if state.get("position_velocity").is_some() {
+            let moving: Vec<Dual<f64>> = q.iter().zip(v).map(|(&q, &v)| Dual::new(q, v)).collect();
+            let mut places = ParticlePlaces(Vec::new());
+            lagrangian.system().place(&moving, Dual::new(t, 1.0), &mut places);
+            let place = places.0[0];
+            let found = [place.map(|x| x.value), place.map(|x| x.tangent)].concat();
+            assert_close(name, &found, &golden::vector(&state["position_velocity"]), Tol::ulps(16.0));
+            checked += 1;
+        }
+    }
+    checked
+}
+
+#[test]
+fn invariants_of_reference_trajectories_are_theirs() {
+    let data = golden::load("trajectories");
+    let mut checked = 0;
+    for case in &data.cases {
+        if matches!(
+            golden::text(&case["system"]),
+            "double_pendulum" | "spherical_pendulum" | "heavy_top" | "elastic_pendulum"
+        ) {
+            with_system!(case, lagrangian => checked += check_invariants(case, &lagrangian));
+        }
+    }
+    // Four states each: energies of six cases, five momenta of symmetries, two tables of momenta, one of places.
+    assert_eq!(checked, 4 * (6 + 5 + 2 + 1));
 }
 
 #[test]

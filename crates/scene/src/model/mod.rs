@@ -270,7 +270,8 @@ impl<'d> Builder<'d> {
             );
         }
         if let Some(table) = table {
-            let adaptive = ["dormand-prince-853", "verner-98"].contains(&request.method.as_str());
+            let adaptive =
+                ["dormand-prince-853", "verner-98", "nystrom-86", "nystrom-1210"].contains(&request.method.as_str());
             let fixed = !adaptive && request.method != "auto";
             for (key, wrong) in [("step", adaptive), ("tolerance", fixed)] {
                 if wrong && table.has(key) {

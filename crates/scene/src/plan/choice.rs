@@ -32,13 +32,15 @@ pub(super) fn method(scene: &Scene) -> (Method, String) {
             let (step, why) = step(scene, order);
             (Method::GaussLegendre { order, step }, format!("integrator.method asks for it; {why}"))
         }
-        ("dormand-prince", _) => {
+        ("dormand-prince" | "verner" | "nystrom", _) => {
             let tolerance = scene.integrator.tolerance.unwrap_or(TOLERANCE);
-            (Method::DormandPrince { tolerance }, "integrator.method asks for it; the step adapts".to_string())
-        }
-        ("verner", _) => {
-            let tolerance = scene.integrator.tolerance.unwrap_or(TOLERANCE);
-            (Method::Verner { tolerance }, "integrator.method asks for it; the step adapts".to_string())
+            let method = match request.method.as_str() {
+                "verner-98" => Method::Verner { tolerance },
+                "nystrom-86" => Method::Nystrom86 { tolerance },
+                "nystrom-1210" => Method::Nystrom1210 { tolerance },
+                _ => Method::DormandPrince { tolerance },
+            };
+            (method, "integrator.method asks for it; the step adapts".to_string())
         }
         _ => automatic(scene),
     }
@@ -53,20 +55,50 @@ fn adaptive(scene: &Scene, tolerance: f64, why: &str) -> (Method, String) {
         // Below rounding an estimate of order eight is nothing but rounding; those of orders five and three still fall.
         return (Method::DormandPrince { tolerance }, why.to_string());
     }
-    let uneven = !matches!(scene.system, System::Mechanism(_));
-    let character = Character::of_first_order();
-    let character = if uneven { character.with_uneven_steps() } else { character };
-    let turns = turn(scene).map(|turn| scene.time.length() / turn);
-    let character = turns.and_then(|turns| character.for_turns(turns).ok()).unwrap_or(character);
-    match advise(&character, (AT_THE_END * tolerance).clamp(1e-15, 0.1)) {
-        Ok(Advice { method: AdvisedMethod::Verner98, reason, evaluations, .. }) => {
-            (Method::Verner { tolerance }, format!("{why}; {reason}{}", expected(turns.and(evaluations))))
+    let character = match &scene.system {
+        // The equations of a mechanism are given as rates of first order.
+        System::Mechanism(_) => Character::of_first_order(),
+        System::Gravitation(system) if system.post_newtonian.is_some() => {
+            Character::of_first_order().with_uneven_steps()
         }
-        Ok(Advice { reason, evaluations, .. }) => {
-            (Method::DormandPrince { tolerance }, format!("{why}; {reason}{}", expected(turns.and(evaluations))))
+        System::Gravitation(_) | System::Central(_) => Character::of_positions().with_uneven_steps(),
+    };
+    let turns = turns(scene);
+    let character = turns.and_then(|turns| character.for_turns(turns).ok()).unwrap_or(character);
+    let positions_alone = depends_on_positions_alone(&scene.system);
+    match advise(&character, (AT_THE_END * tolerance).clamp(1e-15, 0.1)) {
+        Ok(Advice { method, reason, evaluations, .. }) => {
+            let method = match method {
+                AdvisedMethod::DormandPrince853 => Method::DormandPrince { tolerance },
+                AdvisedMethod::Nystrom86 => Method::Nystrom86 { tolerance },
+                AdvisedMethod::Nystrom1210 => Method::Nystrom1210 { tolerance },
+                // Scenes have no other adaptive method; of theirs these have the highest orders.
+                _ if positions_alone => Method::Nystrom1210 { tolerance },
+                _ => Method::Verner { tolerance },
+            };
+            (method, format!("{why}; {reason}{}", expected(turns.and(evaluations))))
         }
         Err(_) => (Method::DormandPrince { tolerance }, why.to_string()),
     }
+}
+
+/// Whether the forces depend on positions alone.
+fn depends_on_positions_alone(system: &System) -> bool {
+    match system {
+        System::Gravitation(system) => system.post_newtonian.is_none(),
+        System::Central(_) => true,
+        System::Mechanism(_) => false,
+    }
+}
+
+/// The length of the run in revolutions: about a fixed centre of the fastest body, among attracting bodies of the fastest pair.
+fn turns(scene: &Scene) -> Option<f64> {
+    let turn = match &scene.system {
+        System::Gravitation(system) => fastest_turn(system),
+        System::Central(system) => shortest_period(system),
+        System::Mechanism(_) => None,
+    };
+    turn.map(|turn| scene.time.length() / turn)
 }
 
 /// The predicted cost, where it is known.
@@ -75,7 +107,6 @@ fn expected(evaluations: Option<f64>) -> String {
 }
 
 fn automatic(scene: &Scene) -> (Method, String) {
-    let asked = |what: &str| what.to_string();
     let request = &scene.integrator;
     match &scene.system {
         System::Gravitation(system) if system.post_newtonian.is_some() => {
@@ -123,9 +154,8 @@ fn automatic(scene: &Scene) -> (Method, String) {
         System::Mechanism(_) => match request.step {
             Some(step) => (
                 Method::GaussLegendre { order: Order::Eight, step },
-                asked(
-                    "a fixed step is asked for, and the inertia metric depends on the coordinates: implicit, symplectic",
-                ),
+                "integrator.step asks for a fixed step, and the inertia metric depends on the coordinates: implicit, symplectic"
+                    .to_string(),
             ),
             None => adaptive(
                 scene,
@@ -194,6 +224,13 @@ fn turn_at_pericentre(system: &Central) -> Option<f64> {
         .filter_map(|body| KeplerMotion::new(system.gm, body.position, body.velocity).ok())
         .map(|motion| motion.period() * (1.0 - motion.eccentricity()).powf(1.5))
         .reduce(f64::min)
+}
+
+/// The shortest period of a revolution, s.
+fn shortest_period(system: &Central) -> Option<f64> {
+    let motions =
+        system.bodies.iter().filter_map(|body| KeplerMotion::new(system.gm, body.position, body.velocity).ok());
+    motions.map(|motion| motion.period()).reduce(f64::min)
 }
 
 fn eccentricity(system: &Central) -> f64 {

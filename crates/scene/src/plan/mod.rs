@@ -92,8 +92,9 @@ impl From<Method> for MethodSummary {
             Method::Composition { order, step } | Method::GaussLegendre { order, step } => {
                 (order.value(), true, Some(step), None)
             }
-            Method::DormandPrince { tolerance } => (8, false, None, Some(tolerance)),
+            Method::DormandPrince { tolerance } | Method::Nystrom86 { tolerance } => (8, false, None, Some(tolerance)),
             Method::Verner { tolerance } => (9, false, None, Some(tolerance)),
+            Method::Nystrom1210 { tolerance } => (12, false, None, Some(tolerance)),
         };
         Self { name: method.to_string(), order, symplectic, step_s, relative_tolerance }
     }
@@ -291,7 +292,10 @@ impl fmt::Display for Plan {
         writeln!(f, ", recorded at {} instants", self.instants)?;
         write!(f, "method    {}", self.method)?;
         match self.method {
-            Method::DormandPrince { tolerance } | Method::Verner { tolerance } => {
+            Method::DormandPrince { tolerance }
+            | Method::Verner { tolerance }
+            | Method::Nystrom86 { tolerance }
+            | Method::Nystrom1210 { tolerance } => {
                 writeln!(f, ", relative tolerance {tolerance:e}")?;
             }
             Method::Composition { step, .. } | Method::GaussLegendre { step, .. } => {

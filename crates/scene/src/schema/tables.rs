@@ -249,7 +249,7 @@ table! {
 }
 
 /// The methods of integration.
-pub static METHODS: [Word; 11] = [
+pub static METHODS: [Word; 13] = [
     word("auto", "chosen by the planner, which says why"),
     word(
         "composition-2",
@@ -264,6 +264,8 @@ pub static METHODS: [Word; 11] = [
     word("gauss-legendre-8", "the same of order 8"),
     word("dormand-prince-853", "explicit Runge–Kutta of order 8(5,3), adaptive step"),
     word("verner-98", "explicit Runge–Kutta of order 9(8), adaptive step"),
+    word("nystrom-86", "explicit Nyström of order 8(6), adaptive step; forces must not depend on velocity"),
+    word("nystrom-1210", "the same of order 12(10)"),
 ];
 
 table! {

@@ -39,9 +39,13 @@ fn figures_and_tables_that_are_not_asked_for_are_not_written() {
 fn method_follows_from_the_forces() {
     let heavy = replaced(PAIR, "gm = \"1 m^3/s^2\"", "gm = 1e6");
     assert_eq!(plan(&heavy).method.to_string(), "composition-8");
-    assert_eq!(plan(PAIR).method.to_string(), "verner-98");
+    assert_eq!(plan(PAIR).method.to_string(), "nystrom-1210");
     let coarse = format!("{PAIR}[integrator]\ntolerance = 1e-4\n");
-    assert_eq!(plan(&coarse).method.to_string(), "dormand-prince-853");
+    assert_eq!(plan(&coarse).method.to_string(), "nystrom-86");
+    let both = replaced(PAIR, "softening = 0.0", "post_newtonian = true");
+    assert_eq!(plan(&both).method.to_string(), "verner-98");
+    let tight = format!("{ORBIT}[integrator]\ntolerance = 1e-12\n");
+    assert_eq!(plan(&tight).method.to_string(), "nystrom-1210");
     let relativistic = replaced(&heavy, "softening = 0.0", "post_newtonian = true");
     assert_eq!(plan(&relativistic).method.to_string(), "gauss-legendre-8");
     assert_eq!(plan(TOP).method.to_string(), "verner-98");
@@ -81,10 +85,10 @@ fn equations_are_two_for_each_coordinate_and_six_for_each_body() {
 fn plan_is_told_as_text_and_as_json() {
     let plan = plan(PAIR);
     let text = plan.to_string();
-    for word in ["2 bodies attracting each other", "skipped", "verner-98", "summary.json"] {
+    for word in ["2 bodies attracting each other", "skipped", "nystrom-1210", "summary.json"] {
         assert!(text.contains(word), "{text}");
     }
     let json = serde_json::to_value(&plan).unwrap_or_default();
-    assert_eq!(json["method"]["name"], "verner-98");
+    assert_eq!(json["method"]["name"], "nystrom-1210");
     assert!(json["skipped"][0]["why"].is_string(), "{json}");
 }

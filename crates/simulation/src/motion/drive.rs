@@ -7,8 +7,9 @@ use core::fmt::Display;
 use core::ops::ControlFlow;
 
 use piola_integrators::{
-    Composition, DormandPrince853, Ending, Field, GaussLegendre, IntegratorsError, Report, RungeKutta, RungeKuttaPair,
-    Separable, State, Tolerance, Verner98,
+    Composition, DenseStep, DormandPrince853, Ending, Field, GaussLegendre, IntegratorsError, Nystrom, Nystrom86,
+    Nystrom1210, NystromPair, NystromStep, Report, RungeKutta, RungeKuttaPair, SecondOrder, Separable, State,
+    Tolerance, Verner98,
 };
 
 use super::{History, Invariants, Method, Progress, TimeSpan, Timetable};
@@ -26,6 +27,15 @@ pub(super) type Observer<'o> = &'o mut dyn FnMut(Progress) -> ControlFlow<()>;
 
 /// Takes a driver and a state to an instant.
 type Advance<'a, 'o> = &'a mut dyn FnMut(&mut Driver<'o>, &mut State, f64) -> Result<Report, IntegratorsError<String>>;
+
+/// Takes a driver and a state to a landing; also whether dense output failed.
+type Landing<'a, 'o> = &'a mut dyn FnMut(
+    &mut Driver<'o>,
+    &mut State,
+    f64,
+    &mut dyn Reading,
+    &mut [f64],
+) -> (Result<Report, IntegratorsError<String>>, Result<(), String>);
 
 /// A field or a separable pair behind a pointer: the integrators are compiled once and not once a system.
 /// Their cost beside the forces of a system is a call through a pointer, some nanoseconds an evaluation.
@@ -106,6 +116,77 @@ impl Separable for AnyField<'_, dyn SeparableWithText + '_> {
     }
     fn force(&mut self, t: f64, position: &[f64], force: &mut [f64]) -> Result<(), String> {
         self.0.force(t, position, force)
+    }
+}
+
+/// What a Nyström pair asks of a system, with errors as text.
+trait SecondOrderWithText {
+    fn freedom(&self) -> usize;
+    fn is_velocity_dependent(&self) -> bool;
+    fn acceleration(&mut self, t: f64, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), String>;
+    fn magnitudes(&self, state: &[f64], magnitudes: &mut [f64]);
+}
+
+impl<F: SecondOrder<f64, Error: Display>> SecondOrderWithText for F {
+    fn freedom(&self) -> usize {
+        SecondOrder::freedom(self)
+    }
+    fn is_velocity_dependent(&self) -> bool {
+        SecondOrder::is_velocity_dependent(self)
+    }
+    fn acceleration(&mut self, t: f64, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), String> {
+        SecondOrder::acceleration(self, t, q, v, acceleration).map_err(|error| error.to_string())
+    }
+    fn magnitudes(&self, state: &[f64], magnitudes: &mut [f64]) {
+        SecondOrder::magnitudes(self, state, magnitudes);
+    }
+}
+
+impl SecondOrder for AnyField<'_, dyn SecondOrderWithText + '_> {
+    type Error = String;
+    const OWN_MAGNITUDES: bool = true;
+    fn freedom(&self) -> usize {
+        self.0.freedom()
+    }
+    fn is_velocity_dependent(&self) -> bool {
+        self.0.is_velocity_dependent()
+    }
+    fn acceleration(&mut self, t: f64, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), String> {
+        self.0.acceleration(t, q, v, acceleration)
+    }
+    fn magnitudes(&self, state: &[f64], magnitudes: &mut [f64]) {
+        self.0.magnitudes(state, magnitudes);
+    }
+}
+
+/// An accepted step of an adaptive method.
+trait AdaptiveStep {
+    fn time(&self) -> f64;
+    fn values(&self) -> &[f64];
+    fn at(&mut self, t: f64, values: &mut [f64]) -> Result<(), String>;
+}
+
+impl<P: RungeKuttaPair, F: Field<f64, Error: Display>> AdaptiveStep for DenseStep<'_, P, f64, F> {
+    fn time(&self) -> f64 {
+        self.time()
+    }
+    fn values(&self) -> &[f64] {
+        self.values()
+    }
+    fn at(&mut self, t: f64, values: &mut [f64]) -> Result<(), String> {
+        self.at(t, values).map_err(|error| error.to_string())
+    }
+}
+
+impl<P: NystromPair, F: SecondOrder<f64, Error: Display>> AdaptiveStep for NystromStep<'_, P, f64, F> {
+    fn time(&self) -> f64 {
+        self.time()
+    }
+    fn values(&self) -> &[f64] {
+        self.values()
+    }
+    fn at(&mut self, t: f64, values: &mut [f64]) -> Result<(), String> {
+        self.at(t, values).map_err(|error| error.to_string())
     }
 }
 
@@ -246,7 +327,47 @@ impl<'o> Driver<'o> {
             Method::Composition { .. } => {
                 Err("an explicit composition needs forces that depend on positions alone".to_string())
             }
+            Method::Nystrom86 { .. } | Method::Nystrom1210 { .. } => {
+                Err("a Nyström pair needs forces that depend on positions alone".to_string())
+            }
         }
+    }
+
+    /// A Nyström pair.
+    pub(super) fn second_order(
+        &mut self,
+        method: Method,
+        system: &mut impl SecondOrder<f64, Error: Display>,
+        state: &mut State,
+        reading: &mut dyn Reading,
+    ) -> Result<(), String> {
+        let mut system = AnyField(system as &mut dyn SecondOrderWithText);
+        match method {
+            Method::Nystrom86 { tolerance } => {
+                let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
+                self.nystrom(&mut Nystrom86::new(tolerance), &mut system, state, reading)
+            }
+            Method::Nystrom1210 { tolerance } => {
+                let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
+                self.nystrom(&mut Nystrom1210::new(tolerance), &mut system, state, reading)
+            }
+            other => Err(format!("{other} is no Nyström pair")),
+        }
+    }
+
+    fn nystrom<P: NystromPair>(
+        &mut self,
+        method: &mut Nystrom<P>,
+        system: &mut AnyField<dyn SecondOrderWithText + '_>,
+        state: &mut State,
+        reading: &mut dyn Reading,
+    ) -> Result<(), String> {
+        self.landing_by_landing(state, reading, &mut |driver, state, landing, reading, between| {
+            let mut dense = Ok(());
+            let result =
+                method.integrate(system, state, landing, |step| driver.pass(step, reading, between, &mut dense));
+            (result, dense)
+        })
     }
 
     fn adaptive<P: RungeKuttaPair>(
@@ -256,35 +377,58 @@ impl<'o> Driver<'o> {
         state: &mut State,
         reading: &mut dyn Reading,
     ) -> Result<(), String> {
+        self.landing_by_landing(state, reading, &mut |driver, state, landing, reading, between| {
+            let mut dense = Ok(());
+            let result =
+                method.integrate(field, state, landing, |step| driver.pass(step, reading, between, &mut dense));
+            (result, dense)
+        })
+    }
+
+    /// Records the instants that a step has passed, and the invariants at its end if there were some.
+    fn pass(
+        &mut self,
+        step: &mut impl AdaptiveStep,
+        reading: &mut dyn Reading,
+        between: &mut [f64],
+        dense: &mut Result<(), String>,
+    ) -> ControlFlow<()> {
+        let passed = self.next;
+        while let Some(&instant) = self.instants.get(self.next) {
+            let order = self.span.order(instant, step.time());
+            if order.is_gt() {
+                break;
+            }
+            if order.is_lt() {
+                if let Err(error) = step.at(instant, between) {
+                    *dense = Err(error);
+                    return ControlFlow::Break(());
+                }
+                reading.record(instant, between, &mut self.history);
+            } else {
+                reading.record(instant, step.values(), &mut self.history);
+            }
+            self.next += 1;
+        }
+        if passed < self.next {
+            let invariants = reading.invariants(step.time(), step.values());
+            self.history.invariants.push(invariants);
+        }
+        self.step_done(step.time())
+    }
+
+    /// An adaptive method, from landing to landing.
+    fn landing_by_landing(
+        &mut self,
+        state: &mut State,
+        reading: &mut dyn Reading,
+        advance: Landing<'_, 'o>,
+    ) -> Result<(), String> {
         self.begin(state, reading);
         let mut between = state.values.clone();
         for landing in core::mem::take(&mut self.landings) {
             let steps_before = self.steps;
-            let mut dense = Ok(());
-            let result = method.integrate(field, state, landing, |step| {
-                let passed = self.next;
-                while let Some(&instant) = self.instants.get(self.next) {
-                    let order = self.span.order(instant, step.time());
-                    if order.is_gt() {
-                        break;
-                    }
-                    if order.is_lt() {
-                        if let Err(error) = step.at(instant, &mut between) {
-                            dense = Err(error.to_string());
-                            return ControlFlow::Break(());
-                        }
-                        reading.record(instant, &between, &mut self.history);
-                    } else {
-                        reading.record(instant, step.values(), &mut self.history);
-                    }
-                    self.next += 1;
-                }
-                if passed < self.next {
-                    let invariants = reading.invariants(step.time(), step.values());
-                    self.history.invariants.push(invariants);
-                }
-                self.step_done(step.time())
-            });
+            let (result, dense) = advance(self, state, landing, reading, &mut between);
             self.time = state.time;
             match result {
                 Ok(report) => self.report = self.report.then(report),

@@ -40,6 +40,16 @@ pub enum Method {
         /// Relative tolerance of a step.
         tolerance: f64,
     },
+    /// Adaptive Nyström of order 8(6), for forces that depend on positions alone.
+    Nystrom86 {
+        /// Relative tolerance of a step.
+        tolerance: f64,
+    },
+    /// Adaptive Nyström of order 12(10), for forces that depend on positions alone.
+    Nystrom1210 {
+        /// Relative tolerance of a step.
+        tolerance: f64,
+    },
 }
 
 impl fmt::Display for Method {
@@ -49,6 +59,8 @@ impl fmt::Display for Method {
             Self::GaussLegendre { order, .. } => write!(f, "gauss-legendre-{}", order.value()),
             Self::DormandPrince { .. } => f.write_str("dormand-prince-853"),
             Self::Verner { .. } => f.write_str("verner-98"),
+            Self::Nystrom86 { .. } => f.write_str("nystrom-86"),
+            Self::Nystrom1210 { .. } => f.write_str("nystrom-1210"),
         }
     }
 }
@@ -59,7 +71,9 @@ impl Method {
     pub fn step(&self) -> Option<f64> {
         match self {
             Self::Composition { step, .. } | Self::GaussLegendre { step, .. } => Some(*step),
-            Self::DormandPrince { .. } | Self::Verner { .. } => None,
+            Self::DormandPrince { .. } | Self::Verner { .. } | Self::Nystrom86 { .. } | Self::Nystrom1210 { .. } => {
+                None
+            }
         }
     }
 }

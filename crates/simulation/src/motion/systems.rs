@@ -5,7 +5,7 @@ use core::convert::Infallible;
 use nalgebra::Vector3;
 use piola_gravitation as gravitation;
 use piola_gravitation::{Gravitation, SPEED_OF_LIGHT, attraction};
-use piola_integrators::{Composition, Field, Separable, State};
+use piola_integrators::{Composition, Field, SecondOrder, Separable, State};
 use piola_kinematics::{Attitude, Holonomic, Placement, RigidBody};
 use piola_lagrangian::{Lagrangian, Workspace};
 use piola_numerics::sums::CompensatedSum;
@@ -27,6 +27,9 @@ pub(super) fn gravitation(system: &model::Gravitation, method: Method, driver: &
         Method::Composition { order, step } if system.post_newtonian.is_none() => {
             let mut method = Composition::new(order, step).map_err(|error| error.to_string())?;
             driver.separable(&mut method, &mut bodies, &mut state, &mut reading)
+        }
+        Method::Nystrom86 { .. } | Method::Nystrom1210 { .. } => {
+            driver.second_order(method, &mut bodies, &mut state, &mut reading)
         }
         _ => driver.field(method, &mut bodies, &mut state, &mut reading),
     }
@@ -75,6 +78,9 @@ pub(super) fn central(system: &model::Central, method: Method, driver: &mut Driv
             let mut method = Composition::new(order, step).map_err(|error| error.to_string())?;
             driver.separable(&mut method, &mut field, &mut state, &mut CentralReading(system))
         }
+        Method::Nystrom86 { .. } | Method::Nystrom1210 { .. } => {
+            driver.second_order(method, &mut field, &mut state, &mut CentralReading(system))
+        }
         _ => driver.field(method, &mut field, &mut state, &mut CentralReading(system)),
     }
 }
@@ -95,6 +101,21 @@ impl Separable for CentralField {
             f.copy_from_slice(&attraction([-x[0], -x[1], -x[2]], self.gm, 0.0));
         }
         Ok(())
+    }
+}
+
+impl SecondOrder for CentralField {
+    type Error = Infallible;
+    const VELOCITY_DEPENDENT: bool = false;
+    const OWN_MAGNITUDES: bool = true;
+    fn freedom(&self) -> usize {
+        self.freedom
+    }
+    fn acceleration(&mut self, t: f64, q: &[f64], _v: &[f64], acceleration: &mut [f64]) -> Result<(), Infallible> {
+        self.force(t, q, acceleration)
+    }
+    fn magnitudes(&self, state: &[f64], magnitudes: &mut [f64]) {
+        Field::magnitudes(self, state, magnitudes);
     }
 }
 

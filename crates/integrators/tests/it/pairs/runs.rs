@@ -403,3 +403,61 @@ fn tolerances_below_rounding_are_raised_to_two_units_in_the_last_place() {
             <= 0.0
     );
 }
+
+/// Two oscillators that know nothing of each other, of 10⁶ m and of 1 m.
+#[derive(Clone, Copy)]
+struct LargeAndSmall<const OWN: bool>;
+
+impl<const OWN: bool> SecondOrder for LargeAndSmall<OWN> {
+    type Error = Infallible;
+    const VELOCITY_DEPENDENT: bool = false;
+    const OWN_MAGNITUDES: bool = OWN;
+    fn freedom(&self) -> usize {
+        2
+    }
+    fn acceleration(&mut self, _t: f64, q: &[f64], _v: &[f64], acceleration: &mut [f64]) -> Result<(), Infallible> {
+        acceleration.copy_from_slice(&[-q[0], -4.0 * q[1]]);
+        Ok(())
+    }
+    fn magnitudes(&self, state: &[f64], magnitudes: &mut [f64]) {
+        let [a, b] = [state[0].hypot(state[2]), state[1].hypot(0.5 * state[3])];
+        magnitudes.copy_from_slice(&[a, b, a, 2.0 * b]);
+    }
+}
+
+/// A system's own magnitudes keep the error of a small component small; the largest of a block hides it.
+#[test]
+fn error_of_a_small_component_is_relative_to_its_own_magnitude() {
+    fn errors<const OWN: bool>(tolerance: f64) -> [f64; 2] {
+        let mut state = State::new(0.0, vec![1e6, 1.0, 0.0, 0.0]).unwrap();
+        let mut method = Nystrom1210::new(Tolerance::relative(tolerance).unwrap());
+        method.integrate_to(&mut LargeAndSmall::<OWN>, &mut state, 20.0).unwrap();
+        [(state.values[0] / 1e6 - 20.0_f64.cos()).abs(), (state.values[1] - 40.0_f64.cos()).abs()]
+    }
+    let (own, blocks) = (errors::<true>(1e-10), errors::<false>(1e-10));
+    assert!(own[0] < 1e-9 && own[1] < 1e-8, "{own:?}");
+    assert!(blocks[0] < 1e-8 && 100.0 * own[1] < blocks[1], "{blocks:?} beside {own:?}");
+}
+
+#[test]
+fn run_with_own_magnitudes_continues_to_the_last_bit() {
+    let mut method = Nystrom86::new(Tolerance::relative(1e-9).unwrap());
+    let start = State::new(0.0, vec![1e6, 1.0, 0.0, 0.0]).unwrap();
+    let mut whole = start.clone();
+    let mut checkpoint = None;
+    method
+        .integrate(&mut LargeAndSmall::<true>, &mut whole, 20.0, |step| {
+            if step.number() == 9 {
+                checkpoint = Some(step.checkpoint());
+            }
+            core::ops::ControlFlow::Continue(())
+        })
+        .unwrap();
+    let mut continued = start;
+    let checkpoint = checkpoint.expect("more than nine steps");
+    let mut method = Nystrom86::new(Tolerance::relative(1e-9).unwrap());
+    method
+        .resume(&mut LargeAndSmall::<true>, &checkpoint, &mut continued, 20.0, |_| core::ops::ControlFlow::Continue(()))
+        .unwrap();
+    assert_eq!(whole, continued);
+}
