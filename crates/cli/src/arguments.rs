@@ -74,7 +74,8 @@ pub(crate) struct FitArguments {
     /// The measured stresses: a table with the columns mode, stretch (or strain) and stress, or lambda1, lambda2, P1, P2, or F and stress
     /// by components.
     pub(crate) data: PathBuf,
-    /// A law: neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, polynomial:n, ogden:n. Without any, the usual ones.
+    /// A law: neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, carroll, lopez-pamies, van-der-waals, extended-tube, polynomial:n,
+    /// ogden:n. Without any, the usual ones.
     #[arg(long = "law", value_name = "LAW")]
     pub(crate) laws: Vec<String>,
     /// Weights of tests, as uniaxial=2,planar=0.5; 0 holds a test out and compares the laws with it.

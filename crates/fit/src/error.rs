@@ -81,8 +81,8 @@ pub enum FitError {
     },
     /// A model to fit has a name that is not known.
     #[error(
-        "no model is called `{name}`; the models are neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, \
-         polynomial:n, ogden:n"
+        "no model is called `{name}`; the models are neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, carroll, \
+         lopez-pamies, van-der-waals, extended-tube, polynomial:n, ogden:n"
     )]
     UnknownModel {
         /// The name.

@@ -153,6 +153,7 @@ fn lanes_of_rubber_equal_single_values() -> Fallible {
 fn single_precision_of_rubber_equals_double() -> Fallible {
     for (name, law) in all()? {
         for f in deformations(2) {
+            #[expect(clippy::cast_possible_truncation, reason = "rounded to single precision")]
             let rows = f.gradient_rows().map(|row| row.map(|x| x as f32));
             let short = law.first_piola(&DeformationGradient::<f32>::from_rows(rows)?).0;
             let found: Vec<f64> = short.iter().map(|x| f64::from(*x)).collect();
@@ -267,7 +268,7 @@ fn allocations_in_evaluations_of_rubber_equal_zero() -> Fallible {
     Ok(())
 }
 
-/// The eight chains of `solids` are exact, as the task of this module asks: the stress of the inverse Langevin function itself.
+/// The eight chains of `solids` are exact: their stress has the inverse Langevin function itself.
 #[test]
 fn eight_chains_have_the_inverse_langevin_function_not_its_series() -> Fallible {
     // ℒ(β) = coth β − 1/β at β = 20; the chain's stretch there.

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use piola_document::units::{Dimension, Quantity};
 use piola_fit::solids::{AnyModel, Model as _, Parameter};
+use piola_laws::rubber::AnyRubber;
 use piola_solids::AnySolid;
 use piola_solids::volumetric::SimoTaylor;
 use serde_json::Value;
@@ -25,13 +26,14 @@ const VALID: &str = "NAME:PARAMETER=VALUE,…, as mooney-rivlin:c10=0.3 MPa,c01=
 ///
 /// # Example
 /// ```
-/// use piola_solids::{AnySolid, IncompressibleSolid, isochoric::MooneyRivlin};
+/// use piola_laws::rubber::AnyRubber;
+/// use piola_solids::{IncompressibleSolid, isochoric::MooneyRivlin};
 /// let rubber = piola_measured::forward::solid("mooney-rivlin:c10=0.3 MPa,c01=50 kPa", None)?;
-/// assert_eq!(rubber, AnySolid::from(IncompressibleSolid::new(MooneyRivlin::new(3e5, 5e4)?)));
+/// assert_eq!(rubber, AnyRubber::from(IncompressibleSolid::new(MooneyRivlin::new(3e5, 5e4)?)));
 /// assert!(piola_measured::forward::solid("neo-hookean:mu=3 m", None).is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn solid(text: &str, bulk_modulus: Option<&str>) -> Result<AnySolid, MeasuredError> {
+pub fn solid(text: &str, bulk_modulus: Option<&str>) -> Result<AnyRubber, MeasuredError> {
     let bulk = bulk_modulus.map(|text| pressure(text).ok_or_else(|| wrong_bulk(text))).transpose()?;
     let (path, name) = text.split_once('#').map_or((text, None), |(path, name)| (path, Some(name)));
     if Path::new(path).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {
@@ -91,7 +93,7 @@ fn value_of(parameter: &Parameter, text: &str) -> Option<f64> {
 }
 
 /// The law of a model and its parameters in SI.
-fn made(model: AnyModel, values: &[f64], bulk: Option<f64>) -> Result<AnySolid, MeasuredError> {
+fn made(model: AnyModel, values: &[f64], bulk: Option<f64>) -> Result<AnyRubber, MeasuredError> {
     Ok(match bulk {
         Some(modulus) => {
             let volumetric = SimoTaylor::new(modulus).map_err(piola_fit::FitError::from)?;
@@ -102,7 +104,7 @@ fn made(model: AnyModel, values: &[f64], bulk: Option<f64>) -> Result<AnySolid, 
 }
 
 /// A solid that was written, or one of a fit: that of the name, or the best.
-fn of_file(path: &Path, name: Option<&str>, bulk: Option<f64>) -> Result<AnySolid, MeasuredError> {
+fn of_file(path: &Path, name: Option<&str>, bulk: Option<f64>) -> Result<AnyRubber, MeasuredError> {
     let text = read(path)?;
     let shown = path.display().to_string();
     let wrong = |cause: String| wrong(&shown, cause);
@@ -111,7 +113,14 @@ fn of_file(path: &Path, name: Option<&str>, bulk: Option<f64>) -> Result<AnySoli
         if bulk.is_some() {
             return Err(wrong("a solid of a file has its own law of volumes; leave out the bulk modulus".to_owned()));
         }
-        return serde_json::from_value(value).map_err(|error| wrong(error.to_string()));
+        // The name decides whose parameters follow, so that a refusal tells what is wrong with them.
+        let is_own = matches!(value["law"].as_str(), Some("rubber" | "extended_tube" | "hyperfoam"));
+        let read = if is_own {
+            serde_json::from_value::<AnyRubber>(value)
+        } else {
+            serde_json::from_value::<AnySolid>(value).map(AnyRubber::from)
+        };
+        return read.map_err(|error| wrong(error.to_string()));
     };
     let Some(name) = name.or_else(|| value["best_by_aicc"].as_str()) else {
         return Err(wrong("no law of this fit is the best; name one, as summary.json#yeoh".to_owned()));
