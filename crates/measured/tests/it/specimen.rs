@@ -176,7 +176,8 @@ fn what_does_not_go_together_is_refused_by_name() {
 #[test]
 fn specimens_of_laws_of_rubber_have_the_stresses_of_their_formulas() {
     let stress = |text: &str| {
-        let bar = specimen(&request("uniaxial", text, ("stretch", "1..2"), &[])).unwrap_or_else(|error| panic!("{error}"));
+        let bar =
+            specimen(&request("uniaxial", text, ("stretch", "1..2"), &[])).unwrap_or_else(|error| panic!("{error}"));
         bar.column("P11").unwrap_or_default()[100]
     };
     // I₁ = 5, I₂ = 4.25: 2 (λ − λ⁻²)(A + 4 B I₁³ + C/(2 λ √I₂)).
