@@ -383,7 +383,6 @@ impl Model for AnyModel {
         use Embedding::{Constant, Parameter};
         match *self {
             Self::NeoHookean | Self::Gent | Self::ArrudaBoyce | Self::VanDerWaals => Vec::new(),
-            Self::Carroll => vec![(Self::NeoHookean, vec![Parameter(0, 0.5), Constant(0.0), Constant(0.0)])],
             Self::LopezPamies => {
                 let places = vec![Parameter(0, 1.0), Constant(1.0), Constant(0.0), Constant(2.0)];
                 vec![(Self::NeoHookean, places)]
@@ -393,7 +392,9 @@ impl Model for AnyModel {
                 vec![(Self::NeoHookean, places)]
             }
             Self::MooneyRivlin => vec![(Self::NeoHookean, vec![Parameter(0, 0.5), Constant(0.0)])],
-            Self::Yeoh => vec![(Self::NeoHookean, vec![Parameter(0, 0.5), Constant(0.0), Constant(0.0)])],
+            Self::Yeoh | Self::Carroll => {
+                vec![(Self::NeoHookean, vec![Parameter(0, 0.5), Constant(0.0), Constant(0.0)])]
+            }
             Self::Polynomial(series) => {
                 let count = series.powers().count();
                 let fill = |mut places: Vec<Embedding>| {

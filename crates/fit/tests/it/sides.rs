@@ -172,10 +172,13 @@ fn tests_with_sides_are_refused_by_name() -> Fallible {
     let refused = |model, tests: &[SidesTest], options: &SidesOptions| fit_sides(model, tests, options).err();
     assert!(matches!(refused(foam, &[], &options), Some(FitError::NoTests)));
     assert!(matches!(refused(foam, &[test.clone(), test.clone()], &options), Some(FitError::TestTwice { .. })));
-    assert!(matches!(refused(foam, &[test.clone()], &options), Some(FitError::TooFewPoints { points: 1, .. })));
+    assert!(matches!(
+        refused(foam, core::slice::from_ref(&test), &options),
+        Some(FitError::TooFewPoints { points: 1, .. })
+    ));
     assert!(matches!(refused(fibres, &[volumes], &options), Some(FitError::NoSuchLoading { .. })));
     let unknown = options.clone().with_bounds("gamma", [0.0, 1.0]);
-    assert!(matches!(refused(foam, &[test.clone()], &unknown), Some(FitError::UnknownParameter { .. })));
+    assert!(matches!(refused(foam, core::slice::from_ref(&test), &unknown), Some(FitError::UnknownParameter { .. })));
     let empty = options.with_bounds("nu1", [0.6, 0.7]);
     assert!(matches!(refused(foam, &[test], &empty), Some(FitError::ImpossibleBounds { .. })));
     assert!(matches!("foam".parse::<SidesModel>(), Err(FitError::UnknownSidesModel { .. })));

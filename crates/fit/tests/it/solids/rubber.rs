@@ -114,7 +114,7 @@ fn weight_of_a_mode_lowers_its_residual() {
     assert!(uneven.tests[1].rms < even.tests[1].rms);
 }
 
-/// What SciPy 1.17 finds from sixty random starts: `benches/peers/rubber_fits.py`.
+/// What `SciPy` 1.17 finds from sixty random starts: `benches/peers/rubber_fits.py`.
 const OPTIMA: [(&str, f64); 4] = [
     ("carroll", 8.148_152_889_854_581e-3),
     ("lopez-pamies", 7.910_837_352_902_754e-2),
