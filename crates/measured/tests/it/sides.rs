@@ -7,7 +7,7 @@ use piola_measured::forward::solid;
 use piola_measured::sides::{SidesMeasurements, SidesModel, SidesOptions, card_of_foam, compare_sides};
 use piola_testkit::{Tol, assert_close};
 
-/// μ = 0.4 MPa, α = 6, ν = 0.2: λₜ = λ^(−ν), P = (2 μ/α)(λ^α − λₜ^α)/λ; pressed all around p = (2 μ/α)(J^(−αβ) − J^(α/3))/J, β = ⅓.
+/// μ = 0.4 `MPa`, α = 6, ν = 0.2: λₜ = λ^(−ν), P = (2 μ/α)(λ^α − λₜ^α)/λ; pressed all around p = (2 μ/α)(J^(−αβ) − J^(α/3))/J, β = ⅓.
 fn foam() -> String {
     let mut rows = String::from("mode;stretch;stress [MPa];lateral strain [%];operator\n");
     for x in [0.4_f64, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1] {
