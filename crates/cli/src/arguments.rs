@@ -115,7 +115,8 @@ pub(crate) struct FitArguments {
     /// The measured stresses: a table with the columns mode, stretch (or strain) and stress, or lambda1, lambda2, P1, P2, or F and stress
     /// by components.
     pub(crate) data: PathBuf,
-    /// A law: neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, polynomial:n, ogden:n. Without any, the usual ones.
+    /// A law: neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, carroll, lopez-pamies, van-der-waals, extended-tube, polynomial:n,
+    /// ogden:n. Without any, the usual ones. Or, of tests with lateral stretches: hyperfoam:n, holzapfel-gasser-ogden.
     #[arg(long = "law", value_name = "LAW")]
     pub(crate) laws: Vec<String>,
     /// Weights of tests, as uniaxial=2,planar=0.5; 0 holds a test out and compares the laws with it.
@@ -142,8 +143,9 @@ pub(crate) struct FitArguments {
     /// Find intervals by profile likelihood: each parameter is moved and all others are fitted anew.
     #[arg(long)]
     pub(crate) profile: bool,
-    /// Write a material card of each law for a program: abaqus, ansys, calculix, febio or ls-dyna. Needs --bulk-modulus.
-    #[arg(long = "card", value_name = "PROGRAM", requires = "bulk_modulus")]
+    /// Write a material card of each law for a program: abaqus, ansys, calculix, febio or ls-dyna. Needs
+    /// --bulk-modulus, but for a foam.
+    #[arg(long = "card", value_name = "PROGRAM")]
     pub(crate) cards: Vec<String>,
     /// The bulk modulus of the material cards, in the unit of the stresses.
     #[arg(long, value_name = "NUMBER")]

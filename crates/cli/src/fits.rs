@@ -5,6 +5,7 @@ use std::path::Path;
 use piola_charts::Folder;
 use piola_measured::MeasuredError;
 use piola_measured::fitting::{self, Measurements, Request};
+use piola_measured::sides::{SidesMeasurements, SidesModel, SidesOptions, card_of_foam, compare_sides};
 
 use crate::arguments::FitArguments;
 use crate::commands::{listing, note, print, refused};
@@ -12,6 +13,10 @@ use crate::interrupt::Interrupt;
 use crate::{Exit, comparison, flows};
 
 pub(crate) fn fit(arguments: &FitArguments) -> Exit {
+    let is_of_sides = |name: &String| name.parse::<SidesModel>().is_ok();
+    if arguments.laws.iter().any(is_of_sides) {
+        return with_sides(arguments);
+    }
     let interrupt = Interrupt::listen();
     let prepared = flows::only(&arguments.only).and_then(|only| {
         let measurements = Measurements::load_only(&arguments.data, &only)?;
@@ -54,9 +59,75 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
     flows::settled(&fitted, fitted.is_complete(), &refusals, !arguments.laws.is_empty(), &written)
 }
 
+/// Laws of foam or of fibres, to tests whose sides are free, measured or held.
+fn with_sides(arguments: &FitArguments) -> Exit {
+    let prepared = sides_options(arguments).and_then(|options| {
+        let laws: Vec<SidesModel> =
+            arguments.laws.iter().map(|name| Ok(name.parse()?)).collect::<Result<_, MeasuredError>>()?;
+        let measurements = SidesMeasurements::load(&arguments.data)?;
+        let found = compare_sides(&measurements, &laws, &options);
+        let mut cards = Vec::new();
+        for text in &arguments.cards {
+            let program: fitting::Program = text.parse()?;
+            for (law, fit) in found.fits() {
+                let name = law.to_string().replace(':', "-");
+                let card = card_of_foam(program, law, fit)?;
+                cards.push((format!("{text}-{name}.{}", program.ending()), card));
+            }
+        }
+        let beside = || Path::new("out").join(format!("fit-{}", measurements.name()));
+        let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
+        Ok((measurements, found, cards, folder))
+    });
+    let (measurements, found, cards, folder) = match prepared {
+        Ok(prepared) => prepared,
+        Err(error) => return refused(&error, arguments.json),
+    };
+    let written = found.write(&folder, &measurements, &cards);
+    if arguments.json {
+        print(&found.summary(&measurements));
+    } else {
+        print(&found.table(&measurements));
+        print(&listing(&folder, &written));
+    }
+    for failure in &written.failures {
+        note(&format!("error: {failure}"));
+    }
+    if found.is_complete() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
+}
+
+/// The options of such a fit; those that it does not have are refused.
+fn sides_options(arguments: &FitArguments) -> Result<SidesOptions, MeasuredError> {
+    let unused = [
+        (arguments.mode_weights.is_some(), "--mode-weights"),
+        (arguments.equal_errors, "--equal-errors"),
+        (arguments.allow_unstable, "--allow-unstable"),
+        (!arguments.only.is_empty(), "--only"),
+        (arguments.cross_validate, "--cross-validate"),
+        (arguments.to.is_some(), "--to"),
+        (arguments.profile, "--profile"),
+        (!arguments.bounds.is_empty(), "--bound"),
+    ];
+    if let Some((_, option)) = unused.iter().find(|(given, _)| *given) {
+        let valid = "for laws of foam and of fibres: --law, --confidence, --card, --out and --json";
+        return Err(MeasuredError::Argument { argument: (*option).to_owned(), valid });
+    }
+    let mut options = SidesOptions::default();
+    options.confidence = arguments.confidence;
+    Ok(options)
+}
+
 /// What is asked of material cards; nothing without a bulk modulus.
 fn bulk(arguments: &FitArguments) -> Result<Option<fitting::Bulk>, MeasuredError> {
-    let Some(modulus) = arguments.bulk_modulus else { return Ok(None) };
+    let Some(modulus) = arguments.bulk_modulus else {
+        return match arguments.cards.first() {
+            Some(card) => Err(MeasuredError::Argument {
+                argument: format!("--card {card} without --bulk-modulus"),
+                valid: "a bulk modulus in the unit of the stresses; only a foam has its own",
+            }),
+            None => Ok(None),
+        };
+    };
     let mut bulk = fitting::Bulk::new(modulus)?;
     if let Some(density) = arguments.density {
         bulk = bulk.with_density(density)?;

@@ -129,8 +129,14 @@ pub fn solid_from_fit(
     let values: Option<Vec<f64>> = parameters.iter().map(value).collect();
     let values = values.ok_or_else(|| missing("a parameter has no `value`"))?;
     let model: AnyModel = name.parse()?;
-    Ok(match volumetric {
+    let law = match volumetric {
         Some(volumetric) => model.compressible(&values, volumetric)?,
         None => model.law(&values)?,
-    })
+    };
+    let given = || FfiError::UnknownChoice {
+        choice: "law of this fit",
+        given: name.to_owned(),
+        valid: "a law of piola_solids: this one is of piola_laws".to_owned(),
+    };
+    law.solid().cloned().ok_or_else(given)
 }

@@ -81,12 +81,26 @@ pub enum FitError {
     },
     /// A model to fit has a name that is not known.
     #[error(
-        "no model is called `{name}`; the models are neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, \
-         polynomial:n, ogden:n"
+        "no model is called `{name}`; the models are neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, carroll, \
+         lopez-pamies, van-der-waals, extended-tube, polynomial:n, ogden:n"
     )]
     UnknownModel {
         /// The name.
         name: String,
+    },
+    /// A law of foam or fibres has a name that is not known.
+    #[error("no law of foam or fibres is called `{name}`; they are hyperfoam:n and holzapfel-gasser-ogden")]
+    UnknownSidesModel {
+        /// The name.
+        name: String,
+    },
+    /// A law has no answer to a loading.
+    #[error("{model} has no answer to the loading `{loading}`; it has to uniaxial, transverse, equibiaxial and planar")]
+    NoSuchLoading {
+        /// The law.
+        model: String,
+        /// The loading.
+        loading: &'static str,
     },
     /// A series has no terms, or too many.
     #[error("the number of terms of a series is {value}; it must be 1 to 6")]

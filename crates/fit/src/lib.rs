@@ -9,6 +9,8 @@ mod outcome;
 #[cfg(any(feature = "fluids", feature = "solids"))]
 mod search;
 #[cfg(feature = "solids")]
+pub mod sides;
+#[cfg(feature = "solids")]
 pub mod solids;
 mod state;
 mod statistics;

@@ -9,6 +9,7 @@ mod examine;
 pub mod invariants;
 mod methods;
 pub mod plane;
+pub mod rubber;
 pub mod strain;
 pub mod stretches;
 

@@ -8,5 +8,6 @@ pub mod fitting;
 pub mod forward;
 pub mod rheology;
 mod sheet;
+pub mod sides;
 
 pub use error::MeasuredError;

@@ -3,11 +3,12 @@
 use core::fmt;
 use core::str::FromStr;
 
+use piola_laws::rubber::{self, AnyRubber, RubberShape};
 use piola_numerics::Real;
 use piola_solids::isochoric::{self, RivlinTerm};
 use piola_solids::{
-    AnyIsochoric, AnySolid, AnyVolumetric, Compressible, IncompressibleOgden, IncompressibleSolid, IsochoricOgden,
-    OgdenTerm, internal,
+    AnyIsochoric, AnyVolumetric, Compressible, IncompressibleOgden, IncompressibleSolid, IsochoricOgden, OgdenTerm,
+    internal,
 };
 
 use super::{Embedding, Model, Parameter, StableSign};
@@ -17,10 +18,19 @@ use crate::FitError;
 const MOST: usize = 6;
 /// Exponents of Ogden's terms stay within this.
 const EXPONENTS: [f64; 2] = [-30.0, 30.0];
+/// Exponents of Lopez-Pamies' terms: from ½ on they are convex in F.
+const LOPEZ_PAMIES: [f64; 2] = [0.5, 30.0];
+/// Where their search starts.
+const LOPEZ_PAMIES_STARTS: [[f64; 2]; 6] = [[3.0, 0.7], [1.5, 0.5], [5.0, 1.0], [9.0, 0.6], [2.0, 1.0], [14.0, 1.2]];
+/// The least locking stretch of the van der Waals law: 3 < λₘ².
+const LEAST_LOCKING: f64 = 1.733;
+/// Exponents of tubes.
+const TUBES: [f64; 2] = [1e-3, 1.0];
 /// Starts of a search, at most.
 const STARTS: usize = 48;
 
-/// A built-in model, written `neo-hookean`, `mooney-rivlin`, `yeoh`, `gent`, `arruda-boyce`, `polynomial:n`, `ogden:n`.
+/// A built-in model, written `neo-hookean`, `mooney-rivlin`, `yeoh`, `gent`, `arruda-boyce`, `carroll`, `lopez-pamies`, `van-der-waals`,
+/// `extended-tube`, `polynomial:n`, `ogden:n`.
 ///
 /// | model | W | parameters |
 /// |---|---|---|
@@ -29,13 +39,17 @@ const STARTS: usize = 48;
 /// | `Yeoh` | Σ Cᵢ (I₁ − 3)ⁱ, i = 1, 2, 3 | Cᵢ |
 /// | `Gent` | −½ μ Jₘ ln(1 − (I₁ − 3)/Jₘ) | μ, Jₘ |
 /// | `ArrudaBoyce` | n N (β λ − ln(sinh β/β)), λ = √(I₁/3N), ℒ(β) = λ | n, N |
+/// | `Carroll` | A (I₁ − 3) + B (I₁⁴ − 81) + C (√I₂ − √3) | A, B, C |
+/// | `LopezPamies` | Σ 3^(1−αᵣ)/(2 αᵣ) μᵣ (I₁^αᵣ − 3^αᵣ), r = 1, 2 | μᵣ, αᵣ |
+/// | `VanDerWaals` | μ (−(λₘ² − 3)(ln(1 − η) + η) − ⅔ a (x/2)^(3/2)), x = (1 − β)(I₁ − 3) + β (I₂ − 3) | μ, λₘ, a, β |
+/// | `ExtendedTube` | ½ Gc ((1 − δ²) x/(1 − δ² x) + ln(1 − δ² x)) + 2 Ge/β² Σ (λₐ^(−β) − 1), x = I₁ − 3 | Gc, δ, Ge, β |
 /// | `Polynomial(n)` | Σ Cᵢⱼ (I₁ − 3)ⁱ (I₂ − 3)ʲ, 1 ≤ i + j ≤ n | Cᵢⱼ |
 /// | `Ogden(n)` | Σ μₚ/αₚ (λ₁^αₚ + λ₂^αₚ + λ₃^αₚ − 3) | μₚ, αₚ |
 ///
-/// The energies are those of the [laws](piola_solids), the same functions over numbers that have derivatives with respect to the
+/// The energies are those of the laws of [`piola_solids`] and [`piola_laws::rubber`], the same functions over numbers that have derivatives with respect to the
 /// parameters; [`law`](Self::law) and [`compressible`](Self::compressible) make laws of fitted parameters.
 ///
-/// They are stable by the signs of their parameters: μ, n, C₁₀ and C₀₁ not negative, and 0 ≤ μₚ αₚ. Yeoh's and the
+/// They are stable by the signs of their parameters: μ, n, C₁₀, C₀₁, A, B, C, Gc and Ge not negative, and 0 ≤ μₚ αₚ. Yeoh's and the
 /// polynomial have no such signs that are necessary: their stability is looked at where there are data.
 ///
 /// # Example
@@ -64,6 +78,14 @@ pub enum AnyModel {
     Gent,
     /// Eight chains.
     ArrudaBoyce,
+    /// I₁, I₁⁴ and √I₂.
+    Carroll,
+    /// Two powers of I₁.
+    LopezPamies,
+    /// Chains that end and attract each other (Kilian).
+    VanDerWaals,
+    /// Cross-links and tubes (Kaliske, Heinrich).
+    ExtendedTube,
     /// Powers of I₁ − 3 and I₂ − 3 up to a degree, from 1 to 6.
     Polynomial(Series),
     /// Powers of the stretches, from 1 to 6 of them.
@@ -100,12 +122,25 @@ impl Series {
 enum Shape {
     Invariants(AnyIsochoric),
     Stretches(Vec<OgdenTerm>),
+    Rubber(RubberShape),
+    Tube(rubber::ExtendedTube),
 }
 
 impl AnyModel {
     /// All names that can be parsed.
-    pub const NAMES: [&'static str; 7] =
-        ["neo-hookean", "mooney-rivlin", "yeoh", "gent", "arruda-boyce", "polynomial:n", "ogden:n"];
+    pub const NAMES: [&'static str; 11] = [
+        "neo-hookean",
+        "mooney-rivlin",
+        "yeoh",
+        "gent",
+        "arruda-boyce",
+        "carroll",
+        "lopez-pamies",
+        "van-der-waals",
+        "extended-tube",
+        "polynomial:n",
+        "ogden:n",
+    ];
 
     /// The incompressible law with these parameters, without excess pressure.
     ///
@@ -114,10 +149,12 @@ impl AnyModel {
     ///
     /// # Example
     /// See [`Fit::law`](super::Fit::law).
-    pub fn law(&self, parameters: &[f64]) -> Result<AnySolid, FitError> {
+    pub fn law(&self, parameters: &[f64]) -> Result<AnyRubber, FitError> {
         Ok(match self.shape(parameters)? {
             Shape::Invariants(isochoric) => IncompressibleSolid::new(isochoric).into(),
             Shape::Stretches(terms) => IncompressibleOgden::new(&terms)?.into(),
+            Shape::Rubber(shape) => AnyRubber::of_shape(shape, None)?,
+            Shape::Tube(tube) => AnyRubber::of_tube(tube, None)?,
         })
     }
 
@@ -125,11 +162,17 @@ impl AnyModel {
     ///
     /// # Errors
     /// As [`law`](Self::law).
-    pub fn compressible(&self, parameters: &[f64], volumetric: impl Into<AnyVolumetric>) -> Result<AnySolid, FitError> {
+    pub fn compressible(
+        &self,
+        parameters: &[f64],
+        volumetric: impl Into<AnyVolumetric>,
+    ) -> Result<AnyRubber, FitError> {
         let volumetric = volumetric.into();
         Ok(match self.shape(parameters)? {
             Shape::Invariants(isochoric) => Compressible::checked(isochoric, volumetric)?.into(),
             Shape::Stretches(terms) => IsochoricOgden::with_volumetric(&terms, volumetric)?.into(),
+            Shape::Rubber(shape) => AnyRubber::of_shape(shape, Some(volumetric))?,
+            Shape::Tube(tube) => AnyRubber::of_tube(tube, Some(volumetric))?,
         })
     }
 
@@ -150,6 +193,10 @@ impl AnyModel {
                 let term = |([first, second], &coefficient): ([u8; 2], &f64)| RivlinTerm { first, second, coefficient };
                 isochoric::Rivlin::new(series.powers().zip(p).map(term).collect())?.into()
             }
+            Self::Carroll => return Ok(Shape::Rubber(rubber::Carroll::new(p[0], p[1], p[2])?.into())),
+            Self::LopezPamies => return Ok(Shape::Rubber(rubber::LopezPamies::new(p[0], p[1], p[2], p[3])?.into())),
+            Self::VanDerWaals => return Ok(Shape::Rubber(rubber::VanDerWaals::new(p[0], p[1], p[2], p[3])?.into())),
+            Self::ExtendedTube => return Ok(Shape::Tube(rubber::ExtendedTube::new(p[0], p[1], p[2], p[3])?)),
             Self::Ogden(_) => {
                 let terms = p.chunks_exact(2).map(|term| OgdenTerm { modulus: term[0], exponent: term[1] });
                 return Ok(Shape::Stretches(terms.collect()));
@@ -166,6 +213,10 @@ impl fmt::Display for AnyModel {
             Self::Yeoh => f.write_str("yeoh"),
             Self::Gent => f.write_str("gent"),
             Self::ArrudaBoyce => f.write_str("arruda-boyce"),
+            Self::Carroll => f.write_str("carroll"),
+            Self::LopezPamies => f.write_str("lopez-pamies"),
+            Self::VanDerWaals => f.write_str("van-der-waals"),
+            Self::ExtendedTube => f.write_str("extended-tube"),
             Self::Polynomial(series) => write!(f, "polynomial:{}", series.0),
             Self::Ogden(series) => write!(f, "ogden:{}", series.0),
         }
@@ -185,6 +236,10 @@ impl FromStr for AnyModel {
                 "yeoh" => Ok(Self::Yeoh),
                 "gent" => Ok(Self::Gent),
                 "arruda-boyce" => Ok(Self::ArrudaBoyce),
+                "carroll" => Ok(Self::Carroll),
+                "lopez-pamies" => Ok(Self::LopezPamies),
+                "van-der-waals" => Ok(Self::VanDerWaals),
+                "extended-tube" => Ok(Self::ExtendedTube),
                 _ => Err(unknown()),
             },
             Some(("polynomial", count)) => Ok(Self::Polynomial(series(count)?)),
@@ -224,6 +279,23 @@ impl Model for AnyModel {
                 let links = (largest_first_invariant / 3.0).max(1.0);
                 vec![positive("n"), Parameter::number("N", [links, f64::INFINITY])]
             }
+            Self::Carroll => ["A", "B", "C"].map(positive).into(),
+            Self::LopezPamies => {
+                let exponent = |name: &str| Parameter::number(name, LOPEZ_PAMIES);
+                vec![positive("mu1"), exponent("alpha1"), positive("mu2"), exponent("alpha2")]
+            }
+            Self::VanDerWaals => vec![
+                positive("mu"),
+                Parameter::number("lambda_m", [LEAST_LOCKING, f64::INFINITY]),
+                Parameter::number("a", [0.0, f64::INFINITY]),
+                Parameter::number("beta", [0.0, 1.0]),
+            ],
+            Self::ExtendedTube => vec![
+                positive("Gc"),
+                Parameter::number("delta", [0.0, most_inextensible(largest_first_invariant)]),
+                positive("Ge"),
+                Parameter::number("beta", TUBES),
+            ],
             Self::Polynomial(series) => series.powers().map(|[i, j]| Parameter::factor(format!("C{i}{j}"))).collect(),
             Self::Ogden(series) => (0..series.0)
                 .flat_map(|p| {
@@ -248,6 +320,19 @@ impl Model for AnyModel {
             Self::Yeoh => internal::yeoh([parameters[0], parameters[1], parameters[2]], first),
             Self::Gent => internal::gent(parameters[0], parameters[1], first),
             Self::ArrudaBoyce => internal::arruda_boyce(parameters[0], parameters[1], first),
+            Self::Carroll => rubber::internal::carroll([parameters[0], parameters[1], parameters[2]], first, second()),
+            Self::LopezPamies => {
+                rubber::internal::lopez_pamies_term(parameters[0], parameters[1], first)
+                    + rubber::internal::lopez_pamies_term(parameters[2], parameters[3], first)
+            }
+            Self::VanDerWaals => {
+                let four = [parameters[0], parameters[1], parameters[2], parameters[3]];
+                rubber::internal::van_der_waals(four, first, second())
+            }
+            Self::ExtendedTube => {
+                let [a, b, c] = stretches.map(|x| rubber::internal::tube(parameters[2], parameters[3], x.ln()));
+                rubber::internal::crosslinked_network(parameters[0], parameters[1], first) + (a + b + c)
+            }
             Self::Polynomial(series) => {
                 let second = second();
                 let mut energy = T::zero();
@@ -274,6 +359,21 @@ impl Model for AnyModel {
         match self {
             Self::Gent => BEYOND.iter().map(|x| vec![x * (largest_first_invariant - 3.0).max(0.1)]).collect(),
             Self::ArrudaBoyce => BEYOND.iter().map(|x| vec![x * (largest_first_invariant / 3.0).max(1.0)]).collect(),
+            Self::LopezPamies => LOPEZ_PAMIES_STARTS.iter().map(|pair| pair.to_vec()).collect(),
+            Self::VanDerWaals => {
+                let mut starts = Vec::new();
+                for beyond in [1.05, 1.3, 2.0, 6.0] {
+                    for (a, beta) in [(0.1, 1e-3), (0.3, 0.05), (0.3, 0.3), (1.0, 0.9)] {
+                        starts.push(vec![beyond * largest_first_invariant.sqrt(), a, beta]);
+                    }
+                }
+                starts
+            }
+            Self::ExtendedTube => {
+                let most = most_inextensible(largest_first_invariant);
+                let pairs = [0.3, 0.7, 0.95].into_iter().flat_map(|part| [0.1, 0.4, 0.9].map(|beta| (part, beta)));
+                pairs.map(|(part, beta)| vec![part * most, beta]).collect()
+            }
             Self::Ogden(series) => exponents(series.0),
             _ => vec![vec![]],
         }
@@ -282,9 +382,19 @@ impl Model for AnyModel {
     fn contained(&self) -> Vec<(Self, Vec<Embedding>)> {
         use Embedding::{Constant, Parameter};
         match *self {
-            Self::NeoHookean | Self::Gent | Self::ArrudaBoyce => Vec::new(),
+            Self::NeoHookean | Self::Gent | Self::ArrudaBoyce | Self::VanDerWaals => Vec::new(),
+            Self::LopezPamies => {
+                let places = vec![Parameter(0, 1.0), Constant(1.0), Constant(0.0), Constant(2.0)];
+                vec![(Self::NeoHookean, places)]
+            }
+            Self::ExtendedTube => {
+                let places = vec![Parameter(0, 1.0), Constant(0.0), Constant(0.0), Constant(1.0)];
+                vec![(Self::NeoHookean, places)]
+            }
             Self::MooneyRivlin => vec![(Self::NeoHookean, vec![Parameter(0, 0.5), Constant(0.0)])],
-            Self::Yeoh => vec![(Self::NeoHookean, vec![Parameter(0, 0.5), Constant(0.0), Constant(0.0)])],
+            Self::Yeoh | Self::Carroll => {
+                vec![(Self::NeoHookean, vec![Parameter(0, 0.5), Constant(0.0), Constant(0.0)])]
+            }
             Self::Polynomial(series) => {
                 let count = series.powers().count();
                 let fill = |mut places: Vec<Embedding>| {
@@ -319,9 +429,9 @@ impl Model for AnyModel {
         }
     }
 
-    /// Ogden's terms by falling exponents.
+    /// Terms by falling exponents.
     fn order(&self, parameters: &mut [f64]) {
-        if let Self::Ogden(_) = self {
+        if let Self::Ogden(_) | Self::LopezPamies = self {
             let mut terms: Vec<[f64; 2]> = parameters.chunks_exact(2).map(|term| [term[0], term[1]]).collect();
             terms.sort_by(|a, b| b[1].total_cmp(&a[1]));
             for (place, term) in parameters.chunks_exact_mut(2).zip(terms) {
@@ -329,6 +439,11 @@ impl Model for AnyModel {
             }
         }
     }
+}
+
+/// The largest δ of an extended tube: 2 δ² < 1, and δ² (I₁ − 3) < 1 at all data.
+fn most_inextensible(largest_first_invariant: f64) -> f64 {
+    (largest_first_invariant - 3.0).max(2.1).sqrt().recip()
 }
 
 /// Sets of different exponents, evenly from all that can be chosen of a list.

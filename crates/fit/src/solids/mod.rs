@@ -38,7 +38,8 @@ pub use test::{Component, Data, Measure, Table, Test};
 
 use core::cell::Cell;
 
-use piola_solids::{AnySolid, AnyVolumetric};
+use piola_laws::rubber::AnyRubber;
+use piola_solids::AnyVolumetric;
 
 use crate::FitError;
 use search::Problem;
@@ -204,7 +205,7 @@ impl Fit {
     /// assert!((sheared - 0.5 * mu).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn law(&self) -> Result<AnySolid, FitError> {
+    pub fn law(&self) -> Result<AnyRubber, FitError> {
         self.model.parse::<AnyModel>()?.law(&self.values())
     }
 
@@ -212,7 +213,7 @@ impl Fit {
     ///
     /// # Errors
     /// As [`law`](Self::law).
-    pub fn compressible(&self, volumetric: impl Into<AnyVolumetric>) -> Result<AnySolid, FitError> {
+    pub fn compressible(&self, volumetric: impl Into<AnyVolumetric>) -> Result<AnyRubber, FitError> {
         self.model.parse::<AnyModel>()?.compressible(&self.values(), volumetric)
     }
 

@@ -3,5 +3,7 @@
 #[cfg(feature = "fluids")]
 mod fluids;
 #[cfg(feature = "solids")]
+mod sides;
+#[cfg(feature = "solids")]
 mod solids;
 mod statistics;

@@ -5,6 +5,7 @@ mod alloc;
 mod coupled;
 mod plane;
 mod refusals;
+mod rubber;
 mod same;
 mod zoo;
 

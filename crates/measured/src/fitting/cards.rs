@@ -5,8 +5,13 @@
 //! | Abaqus, `CalculiX` | W = Σ Cᵢⱼ (I₁ − 3)ⁱ (I₂ − 3)ʲ + Σ (J − 1)²ⁱ/Dᵢ, D₁ = 2/K | W = Σ 2μ/α² (λ₁ᵅ + λ₂ᵅ + λ₃ᵅ − 3) |
 //! | Ansys | the same with dᵢ | W = Σ μ/α (λ₁ᵅ + λ₂ᵅ + λ₃ᵅ − 3) |
 //! | LS-DYNA | `077_H`: W = Σ Cᵢⱼ (I₁ − 3)ⁱ (I₂ − 3)ʲ, up to C₃₀, K from ν | `077_O`: W = Σ μ/α (…), K from ν |
+//! | Abaqus, Ansys | van der Waals (Abaqus), extended tube (Ansys): see below | |
 //! | `FEBio` | W = c₁ (I₁ − 3) + c₂ (I₂ − 3) + ½ k ln² J; no Yeoh or polynomial | W = Σ c/m² (λ₁ᵐ + λ₂ᵐ + λ₃ᵐ − 3) |
 //!
+//! ```text
+//! Abaqus VAN DER WAALS   W = μ (−(λm² − 3)(ln(1 − η) + η) − ⅔ a (x/2)^(3/2)) + ((J² − 1)/2 − ln J)/D       μ, λm, a, β, D = 2/K
+//! Ansys ETUBE            W = ½ Gc (…) + 2 Ge/β² Σ (λ^(−β) − 1) + (J − 1)²/d                               Gc, Ge, β, δ, d = 2/K
+//! ```
 //! Stretches and invariants are those of F/J^(1/3). Numbers are in the unit of the fitted stresses, which must be that of the model.
 
 use core::fmt::Write as _;
@@ -121,6 +126,10 @@ fn positive(name: &str, value: f64) -> Result<f64, MeasuredError> {
 enum Law {
     Powers(Vec<([u8; 2], f64)>),
     Stretches(Vec<[f64; 2]>),
+    /// μ, λₘ, a and β.
+    VanDerWaals([f64; 4]),
+    /// Gc, Ge, β and δ.
+    ExtendedTube([f64; 4]),
 }
 
 fn law(model: AnyModel, values: &[f64]) -> Option<Law> {
@@ -130,6 +139,11 @@ fn law(model: AnyModel, values: &[f64]) -> Option<Law> {
         AnyModel::Yeoh => Law::Powers((1..).zip(values).map(|(i, value)| ([i, 0], *value)).collect()),
         AnyModel::Polynomial(series) => Law::Powers(series.powers().zip(values.iter().copied()).collect()),
         AnyModel::Ogden(_) => Law::Stretches(values.chunks_exact(2).map(|term| [term[0], term[1]]).collect()),
+        AnyModel::VanDerWaals => Law::VanDerWaals(values.try_into().ok()?),
+        AnyModel::ExtendedTube => {
+            let [crosslinks, inextensibility, confinement, exponent] = values.try_into().ok()?;
+            Law::ExtendedTube([crosslinks, confinement, exponent, inextensibility])
+        }
         _ => return None,
     })
 }
@@ -155,8 +169,12 @@ pub fn card(program: Program, model: AnyModel, fit: &Fit, bulk: Bulk) -> Result<
     let law = law(model, &fit.values()).ok_or_else(none)?;
     let name = model.to_string().replace(':', "-");
     match (program, law) {
-        (Program::Abaqus | Program::CalculiX, law) => Ok(abaqus(&name, &law, bulk)),
-        (Program::Ansys, law) => Ok(ansys(&name, &law, bulk)),
+        (Program::Abaqus, Law::VanDerWaals(four)) => {
+            let numbers: Vec<f64> = four.into_iter().chain([2.0 / bulk.modulus]).collect();
+            Ok(format!("*MATERIAL, NAME={name}\n*HYPERELASTIC, VAN DER WAALS\n{}\n", joined(&numbers)))
+        }
+        (Program::Abaqus | Program::CalculiX, law) => abaqus(&name, &law, bulk).ok_or_else(none),
+        (Program::Ansys, law) => ansys(&name, &law, bulk).ok_or_else(none),
         (Program::LsDyna, law) => dyna(&name, &law, fit.initial_shear_modulus, bulk).ok_or_else(none),
         (Program::FeBio, law) => febio(&name, &law, bulk).ok_or_else(none),
     }
@@ -186,7 +204,7 @@ fn is_reduced(powers: &[([u8; 2], f64)]) -> bool {
     powers.iter().all(|([_, j], _)| *j == 0)
 }
 
-fn abaqus(name: &str, law: &Law, bulk: Bulk) -> String {
+fn abaqus(name: &str, law: &Law, bulk: Bulk) -> Option<String> {
     let mut text = format!("*MATERIAL, NAME={name}\n");
     let inverse = 2.0 / bulk.modulus;
     let volumetric = |terms: u8| core::iter::once(inverse).chain((1..terms).map(|_| 0.0));
@@ -209,11 +227,12 @@ fn abaqus(name: &str, law: &Law, bulk: Bulk) -> String {
             let numbers: Vec<f64> = numbers.into_iter().chain(volumetric(terms)).collect();
             let _ = writeln!(text, "*HYPERELASTIC, OGDEN, N={terms}\n{}", lines(&numbers));
         }
+        Law::VanDerWaals(_) | Law::ExtendedTube(_) => return None,
     }
-    text
+    Some(text)
 }
 
-fn ansys(name: &str, law: &Law, bulk: Bulk) -> String {
+fn ansys(name: &str, law: &Law, bulk: Bulk) -> Option<String> {
     let inverse = 2.0 / bulk.modulus;
     let (kind, terms, numbers) = match law {
         Law::Powers(powers) => {
@@ -230,15 +249,17 @@ fn ansys(name: &str, law: &Law, bulk: Bulk) -> String {
         Law::Stretches(all) => {
             ("OGDEN", u8::try_from(all.len()).unwrap_or(u8::MAX), all.iter().flatten().copied().collect::<Vec<f64>>())
         }
+        Law::ExtendedTube(four) => ("ETUBE", 5, four.to_vec()),
+        Law::VanDerWaals(_) => return None,
     };
-    let volumes = if kind == "MOONEY" { 1 } else { terms };
+    let volumes = if matches!(kind, "MOONEY" | "ETUBE") { 1 } else { terms };
     let all: Vec<f64> = numbers.into_iter().chain(core::iter::once(inverse)).chain((1..volumes).map(|_| 0.0)).collect();
     let mut text = format!("! {name}\nTB,HYPER,1,1,{terms},{kind}\n");
     for (index, six) in all.chunks(6).enumerate() {
         let _ =
             writeln!(text, "TBDATA,{},{}", 6 * index + 1, six.iter().map(|x| number(*x)).collect::<Vec<_>>().join(","));
     }
-    text
+    Some(text)
 }
 
 fn dyna(name: &str, law: &Law, shear: f64, bulk: Bulk) -> Option<String> {
@@ -262,6 +283,7 @@ fn dyna(name: &str, law: &Law, shear: f64, bulk: Bulk) -> Option<String> {
             };
             Some(format!("*MAT_OGDEN_RUBBER_TITLE\n{name}\n{head}\n{}\n{}\n", row(0), row(1)))
         }
+        Law::VanDerWaals(_) | Law::ExtendedTube(_) => None,
     }
 }
 
@@ -277,7 +299,7 @@ fn febio(name: &str, law: &Law, bulk: Bulk) -> Option<String> {
             element("c2", of([0, 1]));
             "Mooney-Rivlin"
         }
-        Law::Powers(_) => return None,
+        Law::Powers(_) | Law::VanDerWaals(_) | Law::ExtendedTube(_) => return None,
         Law::Stretches(all) => {
             for (index, [mu, alpha]) in (1..).zip(all) {
                 // c/m² is the μ/α of the fit.

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use piola_document::units::{Dimension, Quantity};
+use piola_fit::sides::SidesModel;
 use piola_fit::solids::{AnyModel, Model as _, Parameter};
+use piola_laws::rubber::AnyRubber;
 use piola_solids::AnySolid;
 use piola_solids::volumetric::SimoTaylor;
 use serde_json::Value;
@@ -25,13 +27,14 @@ const VALID: &str = "NAME:PARAMETER=VALUE,…, as mooney-rivlin:c10=0.3 MPa,c01=
 ///
 /// # Example
 /// ```
-/// use piola_solids::{AnySolid, IncompressibleSolid, isochoric::MooneyRivlin};
+/// use piola_laws::rubber::AnyRubber;
+/// use piola_solids::{IncompressibleSolid, isochoric::MooneyRivlin};
 /// let rubber = piola_measured::forward::solid("mooney-rivlin:c10=0.3 MPa,c01=50 kPa", None)?;
-/// assert_eq!(rubber, AnySolid::from(IncompressibleSolid::new(MooneyRivlin::new(3e5, 5e4)?)));
+/// assert_eq!(rubber, AnyRubber::from(IncompressibleSolid::new(MooneyRivlin::new(3e5, 5e4)?)));
 /// assert!(piola_measured::forward::solid("neo-hookean:mu=3 m", None).is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn solid(text: &str, bulk_modulus: Option<&str>) -> Result<AnySolid, MeasuredError> {
+pub fn solid(text: &str, bulk_modulus: Option<&str>) -> Result<AnyRubber, MeasuredError> {
     let bulk = bulk_modulus.map(|text| pressure(text).ok_or_else(|| wrong_bulk(text))).transpose()?;
     let (path, name) = text.split_once('#').map_or((text, None), |(path, name)| (path, Some(name)));
     if Path::new(path).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {
@@ -41,15 +44,15 @@ pub fn solid(text: &str, bulk_modulus: Option<&str>) -> Result<AnySolid, Measure
     // The name of a series has a colon of its own.
     let head = text.split('=').next().unwrap_or(text);
     let (name, _) = head.rsplit_once(':').ok_or_else(refused)?;
-    let model: AnyModel = name.trim().parse()?;
-    let parameters = model.parameters(3.0);
+    let model = Named::parse(name.trim())?;
+    let parameters = model.parameters();
     let mut values = vec![None; parameters.len()];
     for part in text[name.len() + 1..].split(',') {
         let (parameter, value) = part.split_once('=').ok_or_else(refused)?;
         let parameter = parameter.trim();
         let index = parameters.iter().position(|other| same(&other.name, parameter)).ok_or_else(|| {
             let names: Vec<&str> = parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-            wrong(text, format!("{model} has no parameter {parameter}; it has {}", names.join(", ")))
+            wrong(text, format!("{} has no parameter {parameter}; it has {}", name.trim(), names.join(", ")))
         })?;
         if values[index].is_some() {
             return Err(MeasuredError::Argument { argument: part.trim().to_owned(), valid: "each parameter once" });
@@ -90,8 +93,41 @@ fn value_of(parameter: &Parameter, text: &str) -> Option<f64> {
     if parameter.is_stress { pressure(text) } else { text.trim().parse().ok().filter(|x: &f64| x.is_finite()) }
 }
 
+/// A model of a name.
+#[derive(Clone, Copy)]
+enum Named {
+    Rubber(AnyModel),
+    Sides(SidesModel),
+}
+
+impl Named {
+    fn parse(name: &str) -> Result<Self, MeasuredError> {
+        match name.parse() {
+            Ok(model) => Ok(Self::Sides(model)),
+            Err(_) => Ok(Self::Rubber(name.parse()?)),
+        }
+    }
+
+    fn parameters(self) -> Vec<Parameter> {
+        match self {
+            Self::Rubber(model) => model.parameters(3.0),
+            Self::Sides(model) => {
+                let made = |(name, is_stress, bounds): (String, bool, [f64; 2])| Parameter {
+                    is_stress,
+                    ..Parameter::number(name, bounds)
+                };
+                model.parameters().into_iter().map(made).collect()
+            }
+        }
+    }
+}
+
 /// The law of a model and its parameters in SI.
-fn made(model: AnyModel, values: &[f64], bulk: Option<f64>) -> Result<AnySolid, MeasuredError> {
+fn made(model: Named, values: &[f64], bulk: Option<f64>) -> Result<AnyRubber, MeasuredError> {
+    let model = match model {
+        Named::Rubber(model) => model,
+        Named::Sides(model) => return of_sides(model, values, bulk),
+    };
     Ok(match bulk {
         Some(modulus) => {
             let volumetric = SimoTaylor::new(modulus).map_err(piola_fit::FitError::from)?;
@@ -101,8 +137,21 @@ fn made(model: AnyModel, values: &[f64], bulk: Option<f64>) -> Result<AnySolid, 
     })
 }
 
+/// A foam has its own law of volumes; fibres need a bulk modulus.
+fn of_sides(model: SidesModel, values: &[f64], bulk: Option<f64>) -> Result<AnyRubber, MeasuredError> {
+    let name = model.to_string();
+    match (model, bulk) {
+        (SidesModel::Hyperfoam(_), None) => Ok(model.law(values, 0.0)?),
+        (SidesModel::Hyperfoam(_), Some(_)) => {
+            Err(wrong(&name, "a foam has its own law of volumes; leave out the bulk modulus".to_owned()))
+        }
+        (_, Some(bulk)) => Ok(model.law(values, bulk)?),
+        (_, None) => Err(wrong(&name, "it needs a bulk modulus, as 1 GPa".to_owned())),
+    }
+}
+
 /// A solid that was written, or one of a fit: that of the name, or the best.
-fn of_file(path: &Path, name: Option<&str>, bulk: Option<f64>) -> Result<AnySolid, MeasuredError> {
+fn of_file(path: &Path, name: Option<&str>, bulk: Option<f64>) -> Result<AnyRubber, MeasuredError> {
     let text = read(path)?;
     let shown = path.display().to_string();
     let wrong = |cause: String| wrong(&shown, cause);
@@ -111,7 +160,14 @@ fn of_file(path: &Path, name: Option<&str>, bulk: Option<f64>) -> Result<AnySoli
         if bulk.is_some() {
             return Err(wrong("a solid of a file has its own law of volumes; leave out the bulk modulus".to_owned()));
         }
-        return serde_json::from_value(value).map_err(|error| wrong(error.to_string()));
+        // The name decides whose parameters follow, so that a refusal tells what is wrong with them.
+        let is_own = matches!(value["law"].as_str(), Some("rubber" | "extended_tube" | "hyperfoam"));
+        let read = if is_own {
+            serde_json::from_value::<AnyRubber>(value)
+        } else {
+            serde_json::from_value::<AnySolid>(value).map(AnyRubber::from)
+        };
+        return read.map_err(|error| wrong(error.to_string()));
     };
     let Some(name) = name.or_else(|| value["best_by_aicc"].as_str()) else {
         return Err(wrong("no law of this fit is the best; name one, as summary.json#yeoh".to_owned()));
@@ -123,7 +179,7 @@ fn of_file(path: &Path, name: Option<&str>, bulk: Option<f64>) -> Result<AnySoli
     if let Some(failure) = found["failure"].as_str() {
         return Err(wrong(format!("the fit of {name} failed: {failure}")));
     }
-    let model: AnyModel = name.parse()?;
+    let model = Named::parse(name)?;
     let unit = match value["stress_unit"].as_str() {
         Some(unit) => spelled(unit)
             .filter(|unit| unit.dimension == Dimension::PRESSURE)
@@ -137,7 +193,7 @@ fn of_file(path: &Path, name: Option<&str>, bulk: Option<f64>) -> Result<AnySoli
         Some(entry["value"].as_f64()? * if parameter.is_stress { unit } else { 1.0 })
     };
     let mut given = Vec::with_capacity(fitted.len());
-    for parameter in &model.parameters(3.0) {
+    for parameter in &model.parameters() {
         given.push(value(parameter).ok_or_else(|| wrong(format!("{name} lacks a value of {}", parameter.name)))?);
     }
     made(model, &given, bulk)

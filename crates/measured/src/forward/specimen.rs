@@ -4,6 +4,8 @@ use core::iter::once;
 
 use piola_continuum::{Deformation as _, DisplacementGradient};
 use piola_document::units::Dimension;
+use piola_laws::rubber::AnyRubber;
+use piola_solids::isochoric::Isochoric;
 use piola_solids::{AnySolid, Hyperelastic as _};
 use piola_solutions::loads::{Ends, Torsion, Tube};
 use piola_specimens::homogeneous::{HomogeneousState, equilibrium};
@@ -23,7 +25,7 @@ pub struct SpecimenRequest {
     /// `uniaxial`, `equibiaxial`, `biaxial`, `planar`, `simple-shear`, `volumetric`, `mixed` or `torsion`.
     pub test: String,
     /// The solid.
-    pub solid: AnySolid,
+    pub solid: AnyRubber,
     /// What is changed, from one value to another, as `("stretch", "1..3")`.
     pub path: (String, String),
     /// What else is prescribed, as `("P22", "10 kPa")`.
@@ -37,7 +39,7 @@ pub struct SpecimenRequest {
 impl SpecimenRequest {
     /// A request of 101 points.
     #[must_use]
-    pub fn new(test: &str, solid: AnySolid, path: (&str, &str), held: &[(&str, &str)]) -> Self {
+    pub fn new(test: &str, solid: AnyRubber, path: (&str, &str), held: &[(&str, &str)]) -> Self {
         let owned = |(name, value): &(&str, &str)| ((*name).to_owned(), (*value).to_owned());
         let held = held.iter().map(owned).collect();
         Self { test: test.to_owned(), solid, path: owned(&path), held, sizes: Vec::new(), points: 101 }
@@ -61,7 +63,7 @@ pub struct LoadedSpecimen {
     /// The test.
     pub test: String,
     /// The solid.
-    pub solid: AnySolid,
+    pub solid: AnyRubber,
     /// Names and SI units of the columns; the first is what is changed.
     pub columns: Vec<(String, &'static str)>,
     /// The values.
@@ -131,7 +133,7 @@ pub fn specimen(request: &SpecimenRequest) -> Result<LoadedSpecimen, MeasuredErr
         let value = prescribed.value(&condition.1)?;
         held.push((prescribed, value));
     }
-    let keeps_volume = matches!(request.solid, AnySolid::Incompressible(_) | AnySolid::IncompressibleOgden(_));
+    let keeps_volume = request.solid.is_incompressible();
     let mut last = DisplacementGradient::zero();
     let (rows, ended) = along(ends, request.points, |value| {
         let state = equilibrium(&request.solid, &controls(test, (&path, value), &held)?, &last)?;
@@ -171,7 +173,7 @@ fn along(
     Ok((rows, None))
 }
 
-fn row(solid: &AnySolid, value: f64, state: &HomogeneousState, keeps_volume: bool) -> Vec<f64> {
+fn row(solid: &AnyRubber, value: f64, state: &HomogeneousState, keeps_volume: bool) -> Vec<f64> {
     let gradient = state.deformation.gradient_rows();
     let stress = state.cauchy.0.rows();
     let cauchy = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|(i, j)| stress[i][j]);
@@ -187,12 +189,18 @@ fn row(solid: &AnySolid, value: f64, state: &HomogeneousState, keeps_volume: boo
 
 /// A rod or a tube of a solid that keeps its volume, its ends held or under a force.
 fn torsion(request: &SpecimenRequest) -> Result<LoadedSpecimen, MeasuredError> {
-    let AnySolid::Incompressible(solid) = &request.solid else {
-        return Err(MeasuredError::Argument {
+    match &request.solid {
+        AnyRubber::Solid(AnySolid::Incompressible(solid)) => twisted(request, &solid.isochoric),
+        AnyRubber::Rubber { shape, volumetric: None } => twisted(request, shape),
+        _ => Err(MeasuredError::Argument {
             argument: "the solid".to_owned(),
-            valid: "neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce or polynomial:n, without a bulk modulus",
-        });
-    };
+            valid: "neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, carroll, lopez-pamies, van-der-waals or polynomial:n, \
+                    without a bulk modulus",
+        }),
+    }
+}
+
+fn twisted(request: &SpecimenRequest, law: &impl Isochoric) -> Result<LoadedSpecimen, MeasuredError> {
     let size = |name: &str| -> Result<Option<f64>, MeasuredError> {
         let Some((_, text)) = request.sizes.iter().find(|(other, _)| other == name) else { return Ok(None) };
         let refused = || MeasuredError::Argument { argument: format!("{name} = {text}"), valid: "a length, as 5 mm" };
@@ -218,7 +226,7 @@ fn torsion(request: &SpecimenRequest) -> Result<LoadedSpecimen, MeasuredError> {
         argument: request.held.iter().map(|(name, text)| format!("{name}={text}")).collect::<Vec<_>>().join(", "),
         valid: "stretch=1.1 or force=0 N, one of them",
     })?;
-    let rod = Torsion { tube, law: &solid.isochoric, ends: held };
+    let rod = Torsion { tube, law, ends: held };
     let (rows, ended) = along(ends, request.points, |twist| {
         let state = rod.state(twist)?;
         Ok(vec![twist, state.torque, state.axial_force, state.axial_stretch])

@@ -116,6 +116,29 @@ fn cards_of_ansys_have_the_energy_of_the_fit() {
     let terms = constants("ogden:3", "3,OGDEN");
     compare_energy("ogden:3", "Ansys", |x| ogden(&pairs(&terms, 3), |mu, alpha| mu / alpha, x));
     assert_close("d", &terms[6..7], &[2.0 / BULK], Tol::ulps(1.0));
+    let tube = constants("extended-tube", "5,ETUBE");
+    let [gc, ge, beta, delta] = [tube[0], tube[1], tube[2], tube[3]];
+    compare_energy("extended-tube", "Ansys", |x| {
+        let (first, square) = (invariants(x)[0], delta * delta);
+        let network = (1.0 - square) * first / (1.0 - square * first) + (1.0 - square * first).ln();
+        0.5 * gc * network + 2.0 * ge / (beta * beta) * (x.iter().map(|x| x.powf(-beta)).sum::<f64>() - 3.0)
+    });
+    assert_close("d", &tube[4..5], &[2.0 / BULK], Tol::ulps(1.0));
+    assert!(of(Program::Ansys, "van-der-waals").is_none());
+}
+
+#[test]
+fn card_of_abaqus_has_the_van_der_waals_energy_of_the_fit() {
+    let found = numbers(&of(Program::Abaqus, "van-der-waals").unwrap_or_default(), "VAN DER WAALS");
+    let [mu, locking, a, beta] = [found[0], found[1], found[2], found[3]];
+    compare_energy("van-der-waals", "Abaqus", |x| {
+        let [first, second] = invariants(x);
+        let (x, limit) = (((1.0 - beta) * first + beta * second).max(0.0), locking * locking - 3.0);
+        let eta = (x / limit).sqrt();
+        mu * (-limit * ((1.0 - eta).ln() + eta) - 2.0 / 3.0 * a * (0.5 * x).powf(1.5))
+    });
+    assert_close("D", &found[4..], &[2.0 / BULK], Tol::ulps(1.0));
+    assert!(of(Program::CalculiX, "van-der-waals").is_none() && of(Program::Abaqus, "carroll").is_none());
 }
 
 #[test]

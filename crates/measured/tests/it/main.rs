@@ -8,4 +8,5 @@ mod forward;
 mod layouts;
 mod newtonian;
 mod rheology;
+mod sides;
 mod specimen;

@@ -171,3 +171,32 @@ fn what_does_not_go_together_is_refused_by_name() {
     }
     assert!(solid("neo-hookean:mu=1", Some("1 m")).is_err() && solid("neo-hookean:mu=1", Some("-1 MPa")).is_err());
 }
+
+/// P of a bar by the closed forms of Carroll's law and of the extended tube, at a stretch of 2; a foam named in a file.
+#[test]
+fn specimens_of_laws_of_rubber_have_the_stresses_of_their_formulas() {
+    let stress = |text: &str| {
+        let bar =
+            specimen(&request("uniaxial", text, ("stretch", "1..2"), &[])).unwrap_or_else(|error| panic!("{error}"));
+        bar.column("P11").unwrap_or_default()[100]
+    };
+    // I₁ = 5, I₂ = 4.25: 2 (λ − λ⁻²)(A + 4 B I₁³ + C/(2 λ √I₂)).
+    let expected = 3.5 * (0.15e6 + 4.0 * 0.3 * 125.0 + 0.1e6 / (4.0 * 4.25_f64.sqrt()));
+    let tol = Tol::stated(1e-10, "the sides are found by Newton's method");
+    assert_close("Carroll", &[stress("carroll:A=0.15 MPa,B=0.3 Pa,C=0.1 MPa")], &[expected], tol);
+    // δ² = 0.01, x = 2: ½ Gc (0.99/0.98² − 0.01/0.98), and 2 Ge/β (λ^(β/2) − λ^(−β))/λ with β = 1.
+    let slope = 0.5 * 0.2e6 * (0.99 / (0.98 * 0.98) - 0.01 / 0.98);
+    let expected = 3.5 * slope + 2.0 * 0.2e6 * (2.0_f64.sqrt() - 0.5) / 2.0;
+    assert_close("tube", &[stress("extended-tube:Gc=0.2 MPa,delta=0.1,Ge=0.2 MPa,beta=1")], &[expected], tol);
+    let rod = request("torsion", "carroll:A=0.15 MPa,B=0.3 Pa,C=0.1 MPa", ("twist", "0..10 rad/m"), &[]);
+    assert!(specimen(&rod.with_size("radius", "5 mm")).is_ok());
+    let path = std::env::temp_dir().join(format!("piola-foam-{}.json", std::process::id()));
+    let text = r#"{"law":"hyperfoam","terms":[{"modulus":1e6,"exponent":2.0,"poisson_ratio":0.0}]}"#;
+    std::fs::write(&path, text).unwrap_or_else(|error| panic!("{error}"));
+    let pressed = specimen(&request("uniaxial", &path.display().to_string(), ("stretch", "1..0.5"), &[]));
+    let removed = std::fs::remove_file(&path);
+    let pressed = pressed.unwrap_or_else(|error| panic!("{error}"));
+    // (2 μ/α)(λ^α − 1)/λ, the sides stay.
+    assert_close("foam", &[pressed.column("P11").unwrap_or_default()[100]], &[-1.5e6], tol);
+    assert!(removed.is_ok());
+}

@@ -39,7 +39,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("inelastic", &["specimens"]),
     // fields, by feature: a body made of one law.
     ("specimens", &["solids", "fields"]),
-    ("fit", &["specimens", "viscometry"]),
+    // laws: those of rubber and foam that a fit may find.
+    ("fit", &["laws", "specimens", "viscometry"]),
     ("solutions", &["solids", "fields", "integrators"]),
     ("uniformity", &["solids", "fields", "integrators"]),
     // integrators in its tests alone: modal motion against an adaptive integration.
@@ -101,6 +102,7 @@ const BY_FEATURE: &[(&str, &str)] = &[
     ("solids", "batch"),
     ("specimens", "fields"),
     ("solutions", "integrators"),
+    ("fit", "laws"),
     ("fit", "specimens"),
     ("fit", "viscometry"),
     ("scene", "solids"),

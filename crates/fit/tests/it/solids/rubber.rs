@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use piola_fit::solids::{AnyModel, Data, Fit, Measure, Options, Stability, State, Table, Test, fit};
-use piola_specimens::homogeneous::Mode;
+use piola_fit::solids::{AnyModel, Data, Fit, Fitted, Measure, Options, Stability, State, Table, Test, fit};
+use piola_specimens::homogeneous::{Mode, first_piola};
 use piola_testkit::{Tol, assert_close};
 
 /// (stretch, stress) of the rows of a mode, from the columns F11 and S11.
@@ -112,4 +112,29 @@ fn weight_of_a_mode_lowers_its_residual() {
     let data = Data::new(heavy.collect()).expect("the data");
     let uneven = fit(&AnyModel::Gent, &data, &Options::default()).expect("a fit");
     assert!(uneven.tests[1].rms < even.tests[1].rms);
+}
+
+/// What `SciPy` 1.17 finds from sixty random starts: `benches/peers/rubber_fits.py`.
+const OPTIMA: [(&str, f64); 4] = [
+    ("carroll", 8.148_152_889_854_581e-3),
+    ("lopez-pamies", 7.910_837_352_902_754e-2),
+    ("van-der-waals", 2.711_023_127_854_615e-2),
+    ("extended-tube", 7.439_197_233_055_826e-3),
+];
+
+#[test]
+fn laws_of_rubber_reach_the_optimum_of_an_independent_search() -> Result<(), Box<dyn core::error::Error>> {
+    for (name, squares) in OPTIMA {
+        let found = fitted(name, &Options::default());
+        assert!(found.outcome.is_converged() && found.stability.is_stable(), "{name}: {found:?}");
+        let tolerance = Tol::stated(1e-12, "digits of the other search");
+        assert_close(name, &[found.weighted_squares], &[squares], tolerance);
+        let law = found.law()?;
+        // The law that is handed over has the stresses of the fit.
+        let stress: f64 = first_piola(Mode::Uniaxial, 2.0, &law);
+        let model: AnyModel = name.parse()?;
+        let expected: f64 = first_piola(Mode::Uniaxial, 2.0, &Fitted::new(&model, found.values())?);
+        assert_close(name, &[stress], &[expected], Tol::ulps(64.0));
+    }
+    Ok(())
 }

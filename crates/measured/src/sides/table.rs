@@ -1,0 +1,235 @@
+//! Tables of tests with sides.
+
+use std::path::{Path, PathBuf};
+
+use piola_document::units::Dimension;
+use piola_fit::sides::{Loading, SidesTest};
+
+use crate::MeasuredError;
+use crate::fitting::{TableMistake, TableReport};
+use crate::sheet::{Row, Sheet, read, spelled, units_of, unknown};
+
+/// Tests of one material.
+///
+/// # Example
+/// ```
+/// use piola_measured::sides::SidesMeasurements;
+/// let text = "angle,strain [%],stress [kPa],lateral strain [%]\n0,10,5,-4\n0,20,14,\n90,10,3,-5\n";
+/// let measurements = SidesMeasurements::parse("skin.csv", text)?;
+/// assert_eq!((measurements.tests.len(), measurements.unit.as_deref()), (2, Some("kPa")));
+/// assert_eq!(measurements.tests[0].rows()[0], (1.1, 5.0, Some(0.96)));
+/// let wrong = SidesMeasurements::parse("skin.csv", "angle,stretch,stress\n45,1.1,2\n");
+/// assert!(wrong.unwrap_err().to_string().starts_with("skin.csv:2: "));
+/// # Ok::<(), piola_measured::MeasuredError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct SidesMeasurements {
+    /// The file.
+    pub path: PathBuf,
+    /// The unit of the stresses, as the file names it.
+    pub unit: Option<String>,
+    /// The tests.
+    pub tests: Vec<SidesTest>,
+    /// What was read in a way that a reader must know, as sentences without a full stop.
+    pub notes: Vec<String>,
+}
+
+impl SidesMeasurements {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Unreadable`], [`MeasuredError::TooLarge`], [`MeasuredError::NotText`]; [`MeasuredError::Table`] with every
+    /// mistake and its line.
+    pub fn load(path: &Path) -> Result<Self, MeasuredError> {
+        Self::parse(path, &read(path)?)
+    }
+
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Table`].
+    pub fn parse(path: impl Into<PathBuf>, text: &str) -> Result<Self, MeasuredError> {
+        let path = path.into();
+        match tests(text) {
+            Ok((unit, tests, notes)) => Ok(Self { path, unit, tests, notes }),
+            Err(mistakes) => Err(MeasuredError::Table(TableReport::new(path, mistakes))),
+        }
+    }
+
+    /// The name of the file without folder and ending.
+    #[must_use]
+    pub fn name(&self) -> String {
+        self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    }
+}
+
+const MODE: &[&str] = &["mode", "test", "test type", "loading", "deformation mode"];
+const ANGLE: &[&str] = &["angle", "direction", "orientation"];
+const STRETCH: &[&str] = &["stretch", "stretch ratio", "lambda", "λ", "volume ratio", "j"];
+const STRAIN: &[&str] = &["strain", "engineering strain", "nominal strain", "epsilon", "ε"];
+const STRESS: &[&str] =
+    &["stress", "nominal stress", "engineering stress", "first piola stress", "pk1", "p", "pressure"];
+const SIDE: &[&str] = &["lateral stretch", "transverse stretch", "lambda t", "λt", "λₜ"];
+const SIDE_STRAIN: &[&str] = &["lateral strain", "transverse strain"];
+const ALL: [&[&str]; 7] = [MODE, ANGLE, STRETCH, STRAIN, STRESS, SIDE, SIDE_STRAIN];
+
+fn find(sheet: &Sheet, names: &'static [&str]) -> Option<usize> {
+    sheet.columns(&|plain| names.contains(&plain)).next()
+}
+
+/// A stretch, or a strain, in its column.
+#[derive(Clone, Copy)]
+struct Column {
+    at: usize,
+    unit: f64,
+    is_strain: bool,
+}
+
+impl Column {
+    fn of(sheet: &Sheet, stretch: &'static [&str], strain: &'static [&str]) -> Result<Option<Self>, TableMistake> {
+        let found = find(sheet, stretch).map(|at| (at, false)).or_else(|| find(sheet, strain).map(|at| (at, true)));
+        let Some((at, is_strain)) = found else { return Ok(None) };
+        let unit = match sheet.headings[at].unit.as_deref().map(|text| (text, spelled(text))) {
+            None => 1.0,
+            Some((_, Some(unit))) if unit.dimension == Dimension::NONE => unit.to_si(1.0),
+            Some((text, _)) => {
+                let what = format!("`{text}` is no unit of a stretch or strain");
+                return Err(TableMistake::new(sheet.header_line, what, "%, or - for a pure number"));
+            }
+        };
+        Ok(Some(Self { at, unit, is_strain }))
+    }
+
+    /// The stretch of a number; simple shear has an amount, which is no strain of a length.
+    fn stretch(self, x: f64, loading: Loading) -> f64 {
+        let x = self.unit * x;
+        if self.is_strain && loading != Loading::SimpleShear { 1.0 + x } else { x }
+    }
+}
+
+/// Stretch, stress and lateral stretch.
+type Point = (f64, f64, Option<f64>);
+/// Unit, tests and notes of a table.
+type Tests = (Option<String>, Vec<SidesTest>, Vec<String>);
+
+fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
+    let sheet = Sheet::parse(text, &|plain| ALL.iter().any(|names| names.contains(&plain)))?;
+    let one = |mistake| vec![mistake];
+    let missing = |what: &str, valid: &'static str| {
+        let what = format!("no column is a {what}: the columns are {}", sheet.names());
+        vec![TableMistake::new(sheet.header_line, what, valid)]
+    };
+    let along = Column::of(&sheet, STRETCH, STRAIN).map_err(one)?;
+    let along =
+        along.ok_or_else(|| missing("stretch or a strain", "a column `stretch`, `strain [%]` or `strain [-]`"))?;
+    let side = Column::of(&sheet, SIDE, SIDE_STRAIN).map_err(one)?;
+    let stress = find(&sheet, STRESS).ok_or_else(|| missing("stress", "a column `stress [MPa]`"))?;
+    let (modes, angles) = (find(&sheet, MODE), find(&sheet, ANGLE));
+    if modes.is_none() && angles.is_none() {
+        return Err(missing("mode or an angle", "a column `mode`, or a column `angle` of uniaxial specimens"));
+    }
+    let unit = sheet.headings[stress].unit.clone().or_else(|| {
+        let stated = sheet.settings.iter().find(|setting| matches!(setting.key.as_str(), "unit" | "stress unit"));
+        stated.map(|setting| setting.value.clone())
+    });
+    if let Some(unit) = &unit
+        && spelled(unit).is_none_or(|found| found.dimension != Dimension::PRESSURE)
+    {
+        let valid = format!("one of {}", units_of(Dimension::PRESSURE));
+        return Err(vec![TableMistake::new(sheet.header_line, unknown(unit), valid)]);
+    }
+    let mut mistakes = Vec::new();
+    let mut groups: Vec<(Loading, u64, Vec<Point>)> = Vec::new();
+    for row in &sheet.rows {
+        let loading = match loading(&sheet, row, modes, angles) {
+            Ok(loading) => loading,
+            Err(mistake) => {
+                mistakes.push(mistake);
+                continue;
+            }
+        };
+        let mut number = |at: usize, name: &str| {
+            let text = row.fields.get(at).unwrap_or_default();
+            let found = sheet.number(text);
+            if found.is_none() {
+                mistakes.push(TableMistake::new(row.line, format!("{name} is `{text}`"), "a finite number"));
+            }
+            found
+        };
+        let (x, p) = (number(along.at, "stretch"), number(stress, "stress"));
+        let given = side.filter(|side| row.fields.get(side.at).is_some_and(|text| !text.trim().is_empty()));
+        let lateral = given.map(|side| (side, number(side.at, "lateral stretch")));
+        let (Some(x), Some(p)) = (x, p) else { continue };
+        let lateral = lateral.and_then(|(side, x)| Some(side.stretch(x?, Loading::Uniaxial)));
+        let x = along.stretch(x, loading);
+        for (name, value) in [("stretch", Some(x)), ("lateral stretch", lateral)] {
+            let value = value.filter(|value| *value <= 0.0 && (name != "stretch" || loading != Loading::SimpleShear));
+            if let Some(value) = value {
+                let hint = "0 < stretch; strains are in a column `strain` or `lateral strain`";
+                mistakes.push(TableMistake::new(row.line, format!("the {name} is {value}"), hint));
+            }
+        }
+        match groups.iter_mut().find(|(other, _, _)| *other == loading) {
+            Some((_, _, points)) => points.push((x, p, lateral)),
+            None => groups.push((loading, row.line, vec![(x, p, lateral)])),
+        }
+    }
+    if !mistakes.is_empty() {
+        return Err(mistakes);
+    }
+    let mut found = Vec::new();
+    for (loading, line, points) in groups {
+        let test = SidesTest::new(loading.name(), loading, &points);
+        found.push(test.map_err(|error| vec![TableMistake::new(line, error.to_string(), "a test of a material")])?);
+    }
+    if found.is_empty() {
+        return Err(vec![TableMistake::new(sheet.last, "the table has a header and no rows", "a row for each point")]);
+    }
+    let mut notes = Vec::new();
+    if along.is_strain {
+        notes.push("strains are engineering strains: stretch = 1 + strain".to_owned());
+    }
+    let used: Vec<usize> =
+        [Some(along.at), side.map(|side| side.at), Some(stress), modes, angles].into_iter().flatten().collect();
+    let headings = sheet.headings.iter().enumerate();
+    let others: Vec<String> = headings
+        .filter(|(at, heading)| !used.contains(at) && !heading.written.is_empty())
+        .map(|(_, heading)| format!("`{}`", heading.written))
+        .collect();
+    if !others.is_empty() {
+        notes.push(format!("columns not used: {}", others.join(", ")));
+    }
+    Ok((unit, found, notes))
+}
+
+/// The loading that mode and angle of a row name.
+fn loading(sheet: &Sheet, row: &Row, modes: Option<usize>, angles: Option<usize>) -> Result<Loading, TableMistake> {
+    let field = |at: Option<usize>| at.and_then(|at| row.fields.get(at)).map(str::trim).filter(|text| !text.is_empty());
+    let mode = match field(modes) {
+        None => Loading::Uniaxial,
+        Some(label) => match label.to_lowercase().as_str() {
+            "uniaxial" | "ut" | "tension" | "compression" | "uc" => Loading::Uniaxial,
+            "transverse" => Loading::Transverse,
+            "equibiaxial" | "biaxial" | "et" | "eb" | "bt" => Loading::Equibiaxial,
+            "planar" | "pure shear" | "pure_shear" | "ps" | "pt" => Loading::Planar,
+            "simple shear" | "simple_shear" | "ss" => Loading::SimpleShear,
+            "volumetric" | "hydrostatic" | "vt" => Loading::Volumetric,
+            _ => {
+                let valid = "uniaxial, transverse, equibiaxial, planar, simple shear, volumetric";
+                return Err(TableMistake::new(row.line, format!("the mode is `{label}`"), valid));
+            }
+        },
+    };
+    let Some(text) = field(angles) else { return Ok(mode) };
+    let degrees = sheet.number(text).map(f64::abs);
+    match (mode, degrees) {
+        (Loading::Uniaxial, Some(angle)) if angle <= 0.0 => Ok(Loading::Uniaxial),
+        (Loading::Uniaxial, Some(angle)) if (angle - 90.0).abs() <= 0.0 => Ok(Loading::Transverse),
+        _ => {
+            let what = format!("a {} specimen at the angle `{text}`", mode.name());
+            let valid = "a uniaxial specimen at 0 or 90 degrees from axis 1; between them it shears";
+            Err(TableMistake::new(row.line, what, valid))
+        }
+    }
+}
