@@ -25,7 +25,7 @@ use core::ops::ControlFlow;
 
 use piola_numerics::Real;
 
-use crate::splitting::{MOST_STAGES, SplittingStage};
+use crate::splitting::{MOST_STAGES, SplittingStage, substeps_of};
 use crate::state::{check_finite, check_run, check_step, compensated_add, equal_steps};
 use crate::{Ending, IntegratorsError, Report, Separable, SplittingScheme, State, Step};
 
@@ -86,12 +86,6 @@ impl Order {
         };
         substeps_of(half)
     }
-}
-
-/// A symmetric list whose sum is one, from its first half.
-pub(crate) fn substeps_of(half: &[f64]) -> impl Iterator<Item = f64> + '_ {
-    let middle = 1.0 - 2.0 * half.iter().sum::<f64>();
-    half.iter().copied().chain([middle]).chain(half.iter().rev().copied())
 }
 
 // First halves of the symmetric coefficient lists; the middle one is 1 − 2 Σ, so that each list sums to one.
