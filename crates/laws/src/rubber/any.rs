@@ -255,7 +255,7 @@ impl ExtendedTube {
     fn unchecked(
         &self,
         volumetric: AnyVolumetric,
-    ) -> Sum<Compressible<super::CrosslinkedNetwork, AnyVolumetric>, OfStretches<super::Tube<true>>> {
+    ) -> Sum<Compressible<super::CrosslinkedNetwork, AnyVolumetric>, OfStretches<super::EntanglementTube<true>>> {
         Sum(Compressible::unchecked(self.network(), volumetric), OfStretches(self.tube()))
     }
 }

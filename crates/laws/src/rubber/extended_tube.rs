@@ -17,7 +17,7 @@ parameters! {
     /// W = ½ Gc ((1 − δ²) x/(1 − δ² x) + ln(1 − δ² x)) + 2 Ge/β² (λ₁^(−β) + λ₂^(−β) + λ₃^(−β) − 3)      x = I₁ − 3
     /// ```
     /// The shear modulus of the reference is Gc (1 − 2 δ²) + Ge. [`incompressible`](Self::incompressible) and
-    /// [`compressible`](Self::compressible) make laws of it, the [`Sum`] of a [`CrosslinkedNetwork`] and a [`Tube`].
+    /// [`compressible`](Self::compressible) make laws of it, the [`Sum`] of a [`CrosslinkedNetwork`] and an [`EntanglementTube`].
     ///
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
@@ -60,9 +60,9 @@ parameters! {
 }
 
 /// The extended tube that keeps its volume.
-type IncompressibleTube = Sum<IncompressibleSolid<CrosslinkedNetwork>, OfStretches<Tube<false>>>;
+type IncompressibleTube = Sum<IncompressibleSolid<CrosslinkedNetwork>, OfStretches<EntanglementTube<false>>>;
 /// The extended tube with an energy of its volume.
-type CompressibleTube<U> = Sum<Compressible<CrosslinkedNetwork, U>, OfStretches<Tube<true>>>;
+type CompressibleTube<U> = Sum<Compressible<CrosslinkedNetwork, U>, OfStretches<EntanglementTube<true>>>;
 
 impl ExtendedTube {
     /// The cross-linked network.
@@ -71,8 +71,8 @@ impl ExtendedTube {
         CrosslinkedNetwork { modulus: self.crosslink_modulus, inextensibility: self.inextensibility }
     }
 
-    pub(super) const fn tube<const ISOCHORIC: bool>(&self) -> Tube<ISOCHORIC> {
-        Tube { modulus: self.confinement_modulus, exponent: self.exponent }
+    pub(super) const fn tube<const ISOCHORIC: bool>(&self) -> EntanglementTube<ISOCHORIC> {
+        EntanglementTube { modulus: self.confinement_modulus, exponent: self.exponent }
     }
 
     /// The law of a body that keeps its volume, without excess pressure.
@@ -170,7 +170,7 @@ impl Isochoric for CrosslinkedNetwork {
 /// # Ok::<(), piola_solids::SolidsError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tube<const ISOCHORIC: bool> {
+pub struct EntanglementTube<const ISOCHORIC: bool> {
     modulus: f64,
     exponent: f64,
 }
@@ -181,7 +181,7 @@ pub fn tube<T: Real>(modulus: T, exponent: T, logarithm: T) -> T {
     T::lit(2.0) * modulus / (exponent * exponent) * excess_of_exponential(-(exponent * logarithm))
 }
 
-impl<const ISOCHORIC: bool> EnergyOfStretches for Tube<ISOCHORIC> {
+impl<const ISOCHORIC: bool> EnergyOfStretches for EntanglementTube<ISOCHORIC> {
     const ISOCHORIC: bool = ISOCHORIC;
 
     #[cfg_attr(not(debug_assertions), inline(always))]

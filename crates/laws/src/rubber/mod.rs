@@ -27,7 +27,7 @@ mod van_der_waals;
 
 pub use any::{AnyRubber, RubberShape};
 pub use carroll::Carroll;
-pub use extended_tube::{CrosslinkedNetwork, ExtendedTube, Tube};
+pub use extended_tube::{CrosslinkedNetwork, EntanglementTube, ExtendedTube};
 pub use hyperfoam::{FoamTerm, Hyperfoam};
 pub use lopez_pamies::LopezPamies;
 pub use van_der_waals::VanDerWaals;
