@@ -122,6 +122,19 @@ pub enum MultibodyError {
         /// What is left of the condition's right-hand side, over the square root of its inertia.
         excess: f64,
     },
+    /// A motion reached a singular position, and was asked to stop there.
+    #[error(
+        "the position at t = {t} s is singular: condition {condition} of closure `{closure}` depends on others there, \
+         and the motion may branch"
+    )]
+    SingularConstraint {
+        /// The closure's name.
+        closure: String,
+        /// The condition among all, from 0.
+        condition: usize,
+        /// The time, s.
+        t: f64,
+    },
     /// No state near the given one satisfies the closures.
     #[error("no state near the given one closes `{closure}`: its residual is still {residual:e}")]
     NoClosedState {

@@ -42,7 +42,7 @@ pub use factorisation::TreeFactors;
 pub use group::TreeGroup;
 pub use inverse_dynamics::AppliedWrench;
 pub use kinematics::{FrameAcceleration, FramePlace, FrameVelocity};
-pub use loops::{BodyPoint, ClosedMotion, ClosedTree, LoopClosure, LoopWorkspace};
+pub use loops::{BodyPoint, ClosedMotion, ClosedTree, LoopClosure, LoopWorkspace, SingularPosition};
 pub use momentum::{CentroidalMomentum, MassCentre, TreeEnergies};
 pub use motion::TreeMotion;
 pub use reactions::JointReaction;

@@ -14,10 +14,12 @@ mod closure;
 mod evaluation;
 mod motion;
 mod projection;
+mod singular;
 mod solve;
 
 pub use closure::{BodyPoint, LoopClosure};
 pub use motion::ClosedMotion;
+pub use singular::SingularPosition;
 pub use solve::LoopWorkspace;
 
 use crate::error::MultibodyError;

@@ -34,6 +34,33 @@ impl ClosedTree {
         result
     }
 
+    /// Brings the state of a stage onto the smooth branch beside a singular position.
+    ///
+    /// Newton's method displaces a state at x from the singular position and at δ from the branch by δ²/x along the branch. The
+    /// part of the displacement along the branch is undone, so that the motion along it stays smooth.
+    pub(super) fn follow_branch(
+        &self,
+        work: &mut LoopWorkspace,
+        q: &mut [f64],
+        v: &mut [f64],
+        t: f64,
+    ) -> Result<(), MultibodyError> {
+        work.start_q.copy_from_slice(q);
+        self.close_positions(work, q, t)?;
+        let mut along = core::mem::take(&mut work.start_v);
+        let mut result = self.tree.displacement(q, &work.start_q, &mut along);
+        if result.is_ok() {
+            result = self.remove_across(work, &mut along, &[]);
+        }
+        if result.is_ok() {
+            result = self.tree.move_configuration(q, &along);
+        }
+        work.start_v = along;
+        result?;
+        self.close_positions(work, q, t)?;
+        self.close_velocities(work, q, v, t)
+    }
+
     fn close_positions(&self, work: &mut LoopWorkspace, q: &mut [f64], t: f64) -> Result<(), MultibodyError> {
         let mut before = f64::INFINITY;
         for _ in 0..20 {
@@ -47,7 +74,8 @@ impl ClosedTree {
             for (right, residual) in work.right.iter_mut().zip(&work.residuals) {
                 *right = -residual;
             }
-            self.solve(work)?;
+            // Whether conditions contradict each other shows in the residuals that are left.
+            self.solve(work, f64::INFINITY)?;
             self.step_of_multipliers(work);
             self.tree.move_configuration(q, &work.step)?;
         }
@@ -64,15 +92,30 @@ impl ClosedTree {
         v: &mut [f64],
         t: f64,
     ) -> Result<(), MultibodyError> {
-        let n = self.tree.freedoms;
         self.reach(work, q, t)?;
+        let rates = core::mem::take(&mut work.rates);
+        let result = self.remove_across(work, v, &rates);
+        work.rates = rates;
+        result
+    }
+
+    /// Takes from a velocity what violates G v = rates; rates that are missing are zero. G and its factors are there.
+    fn remove_across(&self, work: &mut LoopWorkspace, v: &mut [f64], rates: &[f64]) -> Result<(), MultibodyError> {
+        let n = self.tree.freedoms;
         // Twice: the second time removes the rounding of the first.
         for _ in 0..2 {
+            let mut size = 0.0_f64;
             for (i, right) in work.right.iter_mut().enumerate() {
-                let rate: f64 = work.gradients[i * n..(i + 1) * n].iter().zip(&*v).map(|(g, v)| g * v).sum();
-                *right = work.rates[i] - rate;
+                let wanted = rates.get(i).copied().unwrap_or(0.0);
+                let (mut rate, mut terms) = (0.0, wanted.abs());
+                for (g, v) in work.gradients[i * n..(i + 1) * n].iter().zip(&*v) {
+                    rate += g * v;
+                    terms += (g * v).abs();
+                }
+                *right = wanted - rate;
+                size = size.max(terms * work.scales[i]);
             }
-            self.solve(work)?;
+            self.solve(work, size)?;
             self.step_of_multipliers(work);
             for (v, step) in v.iter_mut().zip(&work.step) {
                 *v += step;

@@ -10,7 +10,13 @@ use crate::workspace::TreeWorkspace;
 /// The share of a condition's own inertia, 1 where it is independent, below which it is taken to depend on others.
 const LEAST_SHARE: f64 = 1e-10;
 
-/// By how much conditions that depend on others may contradict them, of the largest right-hand side.
+/// The same for as many conditions as are independent at other positions: where rounding hides the share.
+const LEAST_SHARE_OF_USUAL: f64 = 1e-13;
+
+/// The share of its usual inertia below which the gradient of a condition has vanished: the square of 10⁻¹⁰.
+const VANISHED: f64 = 1e-20;
+
+/// By how much conditions that depend on others may contradict them, of the terms of their right-hand sides.
 const CONSISTENT: f64 = 1e-7;
 
 /// The memory of evaluations of a tree with closures, and their last results.
@@ -30,11 +36,17 @@ pub struct LoopWorkspace {
     matrix: Vec<f64>,
     factor: Vec<f64>,
     square: Vec<f64>,
-    scales: Vec<f64>,
+    pub(super) scales: Vec<f64>,
+    /// The largest diagonal entries of G M⁻¹ Gᵀ so far.
+    largest: Vec<f64>,
     shares: Vec<f64>,
     order: Vec<usize>,
     short: Vec<f64>,
-    rank: usize,
+    pub(super) rank: usize,
+    /// The number of conditions that are independent at other positions of the motion; 0 where it is not known.
+    pub(super) usual_rank: usize,
+    /// Whether the state satisfies the closures, so that its rank can be told from it.
+    pub(super) is_closed: bool,
     pub(super) zero: Vec<f64>,
     pub(super) part: Vec<f64>,
     pub(super) step: Vec<f64>,
@@ -62,6 +74,19 @@ impl LoopWorkspace {
         self.rank
     }
 
+    /// The least share of the inertia of an independent condition that is its own, of the largest inertia it has had: 0 at a
+    /// singular position.
+    pub(super) fn least_share(&self) -> f64 {
+        self.independent()
+            .iter()
+            .fold(1.0, |least, &i| least.min(self.shares[i] / (self.scales[i] * self.scales[i] * self.largest[i])))
+    }
+
+    /// The independent conditions, those with the largest share of their own first.
+    pub(super) fn independent(&self) -> &[usize] {
+        &self.order[..self.rank]
+    }
+
     /// The conditions that depend on others, at the last evaluation.
     #[must_use]
     pub fn redundant(&self) -> &[usize] {
@@ -87,10 +112,13 @@ impl ClosedTree {
             factor: vec![0.0; m * m],
             square: vec![0.0; m * m],
             scales: vec![0.0; m],
+            largest: vec![0.0; m],
             shares: vec![0.0; m],
             order: (0..m).collect(),
             short: vec![0.0; m],
             rank: m,
+            usual_rank: 0,
+            is_closed: true,
             zero: vec![0.0; n],
             part: vec![0.0; n],
             step: vec![0.0; n],
@@ -125,11 +153,17 @@ impl ClosedTree {
         work.zero = zero;
         result?;
         self.factorise(work);
+        let mut size = 0.0_f64;
         for (i, right) in work.right.iter_mut().enumerate() {
-            let free: f64 = work.gradients[i * n..(i + 1) * n].iter().zip(&*out).map(|(g, a)| g * a).sum();
+            let (mut free, mut terms) = (0.0, work.gamma[i].abs());
+            for (g, a) in work.gradients[i * n..(i + 1) * n].iter().zip(&*out) {
+                free += g * a;
+                terms += (g * a).abs();
+            }
             *right = work.gamma[i] - free;
+            size = size.max(terms * work.scales[i]);
         }
-        self.solve(work)?;
+        self.solve(work, size)?;
         for (column, &multiplier) in work.columns.chunks_exact(n.max(1)).zip(&work.multipliers) {
             for (out, &x) in out.iter_mut().zip(column) {
                 *out += multiplier * x;
@@ -169,8 +203,10 @@ impl ClosedTree {
         }
         for i in 0..m {
             let diagonal = work.matrix[i * m + i];
-            work.scales[i] = if 0.0 < diagonal { diagonal.sqrt().recip() } else { 0.0 };
-            work.shares[i] = if 0.0 < diagonal { 1.0 } else { 0.0 };
+            work.largest[i] = work.largest[i].max(diagonal);
+            let is_there = VANISHED * work.largest[i] < diagonal;
+            work.scales[i] = if is_there { diagonal.sqrt().recip() } else { 0.0 };
+            work.shares[i] = if is_there { 1.0 } else { 0.0 };
             work.order[i] = i;
         }
         for i in 0..m {
@@ -181,12 +217,17 @@ impl ClosedTree {
         // Cholesky's factor, the condition with the largest share next.
         work.factor.fill(0.0);
         work.rank = 0;
-        for k in 0..m {
+        let (most, least) = match (work.usual_rank, work.is_closed) {
+            (0, _) => (m, [LEAST_SHARE; 2]),
+            (_, true) => (m, [LEAST_SHARE_OF_USUAL, LEAST_SHARE]),
+            (usual, false) => (usual, [LEAST_SHARE_OF_USUAL; 2]),
+        };
+        for k in 0..most {
             let best = (k..m)
                 .fold(k, |best, i| if work.shares[work.order[best]] < work.shares[work.order[i]] { i } else { best });
             work.order.swap(k, best);
             let pivot = work.order[k];
-            if work.shares[pivot] < LEAST_SHARE {
+            if work.shares[pivot] < least[usize::from(work.usual_rank <= k)] {
                 break;
             }
             work.rank = k + 1;
@@ -202,7 +243,9 @@ impl ClosedTree {
     }
 
     /// The multipliers of least norm for the right-hand side in the workspace.
-    pub(super) fn solve(&self, work: &mut LoopWorkspace) -> Result<(), MultibodyError> {
+    ///
+    /// `size` is that of the terms of the right-hand side, by which contradictions are measured.
+    pub(super) fn solve(&self, work: &mut LoopWorkspace, size: f64) -> Result<(), MultibodyError> {
         let (m, rank) = (self.conditions, work.rank);
         for (right, scale) in work.right.iter_mut().zip(&work.scales) {
             *right *= scale;
@@ -222,11 +265,12 @@ impl ClosedTree {
         for i in 0..m {
             work.multipliers[i] = (0..rank).map(|j| factor[i * m + j] * work.short[j]).sum();
         }
-        let scale = work.right.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        for &condition in &work.order[rank..] {
+        // Near a singular position, and where the closures hold only within the error of a stage, conditions may disagree.
+        let compared = if work.is_closed && work.usual_rank <= rank { rank } else { m };
+        for &condition in &work.order[compared..] {
             let met: f64 = (0..m).map(|j| work.matrix[condition * m + j] * work.multipliers[j]).sum();
             let excess = work.right[condition] - met;
-            if CONSISTENT * scale < excess.abs() {
+            if CONSISTENT * size < excess.abs() {
                 return Err(MultibodyError::Contradiction {
                     closure: self.closure_of(condition).to_owned(),
                     condition,

@@ -7,8 +7,10 @@ mod digits;
 mod golden;
 mod laws;
 mod loops;
+mod mechanisms;
 mod motions;
 mod placement;
+mod singular;
 mod traps;
 mod trees;
 #[cfg(feature = "urdf")]
