@@ -40,6 +40,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     // fields, by feature: a body made of one law.
     ("specimens", &["solids", "fields"]),
     ("fit", &["specimens", "viscometry"]),
+    ("spectra", &["fluids", "fit"]),
     ("solutions", &["solids", "fields", "integrators"]),
     ("uniformity", &["solids", "fields", "integrators"]),
     // integrators in its tests alone: modal motion against an adaptive integration.
@@ -86,6 +87,7 @@ const MECHANICS: &[&str] = &[
     "fluids",
     "viscometry",
     "fit",
+    "spectra",
     "solutions",
     "uniformity",
     "spectral",
