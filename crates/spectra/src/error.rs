@@ -52,6 +52,20 @@ pub enum SpectraError {
         /// The number of modes.
         modes: usize,
     },
+    /// Two neighbouring curves share too few moduli to be laid over each other.
+    #[error("curves {first} and {second} have too few moduli in common to be shifted over each other")]
+    NoOverlap {
+        /// The first curve, from 0.
+        first: usize,
+        /// The second curve.
+        second: usize,
+    },
+    /// No law of temperature was found.
+    #[error("{law}: no positive constants were found for the shifts")]
+    NoShift {
+        /// The law.
+        law: &'static str,
+    },
     /// A law of a fluid refuses the modes.
     #[error(transparent)]
     Fluids(#[from] piola_fluids::FluidsError),

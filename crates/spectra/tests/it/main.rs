@@ -4,6 +4,7 @@ mod alloc;
 mod fits;
 mod refusals;
 mod responses;
+mod superposition;
 
 #[global_allocator]
 static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;
