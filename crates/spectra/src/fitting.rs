@@ -67,15 +67,11 @@ struct Residuals<'d> {
     equilibrium: bool,
 }
 
-impl Residuals<'_> {
-    fn unknowns(&self) -> usize {
-        2 * self.modes + usize::from(self.equilibrium)
-    }
-
+impl SpectrumData<'_> {
     /// Calls `add(row, response of one mode/measured)` for each measured number.
-    fn mode<T: Real>(&self, ln_modulus: T, ln_time: T, mut add: impl FnMut(usize, T)) {
+    pub(crate) fn mode<T: Real>(&self, ln_modulus: T, ln_time: T, mut add: impl FnMut(usize, T)) {
         let g = ln_modulus.exp();
-        match self.data {
+        match *self {
             SpectrumData::Oscillation { angular_frequencies, storage_moduli, loss_moduli } => {
                 let rows = angular_frequencies.iter().zip(storage_moduli).zip(loss_moduli).enumerate();
                 for (row, ((&frequency, &storage), &loss)) in rows {
@@ -91,6 +87,12 @@ impl Residuals<'_> {
                 }
             }
         }
+    }
+}
+
+impl Residuals<'_> {
+    fn unknowns(&self) -> usize {
+        2 * self.modes + usize::from(self.equilibrium)
     }
 
     /// Calls `add(row, 1/measured)` for each number to which Gₑ contributes.
@@ -122,7 +124,7 @@ impl Misfit for Residuals<'_> {
     fn visit(&mut self, x: &[f64]) -> Option<Place> {
         let mut residuals = vec![-1.0; self.rows()];
         for mode in x[..2 * self.modes].chunks_exact(2) {
-            self.mode(mode[0], mode[1], |row, share| residuals[row] += share);
+            self.data.mode(mode[0], mode[1], |row, share| residuals[row] += share);
         }
         if self.equilibrium {
             let equilibrium = x[2 * self.modes].exp();
@@ -138,7 +140,7 @@ impl Misfit for Residuals<'_> {
     fn jacobian(&self, _: &Place, x: &[f64]) -> DMatrix<f64> {
         let mut slopes = DMatrix::zeros(self.rows(), self.unknowns());
         for (k, mode) in x[..2 * self.modes].chunks_exact(2).enumerate() {
-            self.mode(Dual::constant(mode[0]), Dual::variable(mode[1]), |row, share| {
+            self.data.mode(Dual::constant(mode[0]), Dual::variable(mode[1]), |row, share| {
                 slopes[(row, 2 * k)] = share.value; // linear in g
                 slopes[(row, 2 * k + 1)] = share.tangent;
             });

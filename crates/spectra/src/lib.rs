@@ -2,6 +2,7 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod continuous;
 mod data;
 mod error;
 mod fitting;
@@ -10,6 +11,7 @@ mod retardation;
 mod spectrum;
 mod superposition;
 
+pub use continuous::{ContinuousSpectrum, fit_continuous};
 pub use data::SpectrumData;
 pub use error::SpectraError;
 pub use fitting::{ModeCount, SpectrumFit, SpectrumOptions, fit_spectrum};

@@ -1,6 +1,7 @@
 //! Spectra, their responses and their fits.
 
 mod alloc;
+mod continuous;
 mod fits;
 mod refusals;
 mod responses;
