@@ -24,7 +24,8 @@ pub struct IsothermalCurve<'c> {
 /// Horizontal shifts ln aₜ that lay each curve over its neighbour, from curves in the order of their temperatures.
 ///
 /// The shift of two neighbours minimises the mean square of ln y − ln yₙ over the points of either that the other one
-/// reaches, a third of the shorter curve at least, with ln yₙ linear between the points of the neighbour in ln ω. `reference` is the curve whose shift is zero.
+/// reaches, a third of the shorter curve at least, with ln yₙ linear between the points of the neighbour in ln ω.
+/// `reference` is the curve whose shift is zero.
 ///
 /// # Errors
 /// [`SpectraError::NotFinite`], [`SpectraError::WrongLength`]; [`SpectraError::OutOfBounds`] unless all numbers are positive,
