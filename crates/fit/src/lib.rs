@@ -6,7 +6,6 @@ mod error;
 #[cfg(feature = "fluids")]
 pub mod fluids;
 mod outcome;
-#[cfg(any(feature = "fluids", feature = "solids"))]
 mod search;
 #[cfg(feature = "solids")]
 pub mod sides;
@@ -14,6 +13,12 @@ pub mod sides;
 pub mod solids;
 mod state;
 mod statistics;
+
+/// What other crates of Piola use; no part of the interface.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::search::{End, Misfit, Range, minimise};
+}
 
 pub use error::FitError;
 pub use outcome::Outcome;

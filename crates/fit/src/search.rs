@@ -13,20 +13,20 @@ use crate::Outcome;
 /// θ ≤ high          θ = high − eˣ
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Range {
+pub struct Range {
     /// The least and the greatest value; infinite where there is none.
-    pub(crate) bounds: [f64; 2],
+    pub bounds: [f64; 2],
     /// The least distance from a single bound at which a search starts, 0 < least.
-    pub(crate) least: f64,
+    pub least: f64,
 }
 
 impl Range {
     /// 0 < θ.
-    #[cfg(feature = "fluids")]
-    pub(crate) const POSITIVE: Self = Self { bounds: [0.0, f64::INFINITY], least: f64::MIN_POSITIVE };
+    pub const POSITIVE: Self = Self { bounds: [0.0, f64::INFINITY], least: f64::MIN_POSITIVE };
 
     /// The unbounded coordinate of a parameter.
-    pub(crate) fn inward(self, value: f64) -> f64 {
+    #[must_use]
+    pub fn inward(self, value: f64) -> f64 {
         match self.bounds {
             [low, high] if low.is_finite() && high.is_finite() => {
                 let half = 0.5 * (high - low);
@@ -39,7 +39,8 @@ impl Range {
     }
 
     /// The parameter of an unbounded coordinate, and its derivative.
-    pub(crate) fn outward(self, x: f64) -> [f64; 2] {
+    #[must_use]
+    pub fn outward(self, x: f64) -> [f64; 2] {
         match self.bounds {
             [low, high] if low.is_finite() && high.is_finite() => {
                 let half = 0.5 * (high - low);
@@ -53,7 +54,7 @@ impl Range {
 }
 
 /// A sum of squares that is minimised.
-pub(crate) trait Misfit {
+pub trait Misfit {
     /// The state at a point with finite residuals.
     type State;
 
@@ -68,21 +69,20 @@ pub(crate) trait Misfit {
 }
 
 /// The end of a search.
-pub(crate) struct End<M: Misfit> {
-    pub(crate) misfit: M,
-    pub(crate) state: M::State,
-    pub(crate) outcome: Outcome,
+#[derive(Debug)]
+pub struct End<M: Misfit> {
+    /// The misfit.
+    pub misfit: M,
+    /// Its state at the end.
+    pub state: M::State,
+    /// How the search ended.
+    pub outcome: Outcome,
 }
 
 /// Searches from the coordinates `start`; nothing if no residuals are finite there, or at the end.
 ///
 /// `stop` is asked before each evaluation; once it says so, the search ends at the best point until then.
-pub(crate) fn minimise<M: Misfit>(
-    misfit: M,
-    start: Vec<f64>,
-    patience: usize,
-    stop: &dyn Fn() -> bool,
-) -> Option<End<M>> {
+pub fn minimise<M: Misfit>(misfit: M, start: Vec<f64>, patience: usize, stop: &dyn Fn() -> bool) -> Option<End<M>> {
     let mut walk = Walk { misfit, state: None };
     let outcome = walk_down(&mut walk, start, patience, stop)?;
     Some(End { state: walk.state?, misfit: walk.misfit, outcome })

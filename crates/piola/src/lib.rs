@@ -80,6 +80,7 @@
 //! | viscometric flows and their inversion | [`viscometry`] | `viscometry` |
 //! | exact solutions of nonlinear elasticity | [`solutions`] | `solutions` |
 //! | parameters of laws from measurements | [`fit`] | `fit` |
+//! | relaxation spectra | [`spectra`] | `spectra` |
 //! | materially uniform bodies, dislocations, residual stress | [`uniformity`] | `uniformity` |
 //! | elastic and viscous fields on a box | [`spectral`] | `spectral` |
 //! | elastic and fluid registration of images | [`registration`] | `registration` |
@@ -130,6 +131,8 @@ pub use piola_solids as solids;
 pub use piola_solutions as solutions;
 #[cfg(feature = "specimens")]
 pub use piola_specimens as specimens;
+#[cfg(feature = "spectra")]
+pub use piola_spectra as spectra;
 #[cfg(feature = "spectral")]
 pub use piola_spectral as spectral;
 #[cfg(feature = "stiff")]

@@ -41,6 +41,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("specimens", &["solids", "fields"]),
     // laws: those of rubber and foam that a fit may find.
     ("fit", &["laws", "specimens", "viscometry"]),
+    ("spectra", &["fluids", "fit"]),
     ("solutions", &["solids", "fields", "integrators"]),
     ("uniformity", &["solids", "fields", "integrators"]),
     // integrators in its tests alone: modal motion against an adaptive integration.
@@ -88,6 +89,7 @@ const MECHANICS: &[&str] = &[
     "fluids",
     "viscometry",
     "fit",
+    "spectra",
     "solutions",
     "uniformity",
     "spectral",

@@ -1,0 +1,259 @@
+//! Time–temperature superposition: shifts by overlap, and the constants of their laws.
+//!
+//! ```text
+//! y(ω, θ) = y(ω aₜ, θ₀)      ln aₜ = (E/R) (1/θ − 1/θ₀)      log₁₀ aₜ = −C₁ (θ − θ₀)/(C₂ + θ − θ₀)
+//! ```
+
+use nalgebra::DMatrix;
+use piola_fit::internal::{Misfit, Range, minimise};
+use piola_fit::{Covariance, student};
+use piola_fluids::{Arrhenius, TemperatureShift, WilliamsLandelFerry};
+
+use crate::SpectraError;
+use crate::error::check;
+
+/// A modulus measured over frequencies at one temperature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IsothermalCurve<'c> {
+    /// ω, rad/s; 0 < ω, rising.
+    pub angular_frequencies: &'c [f64],
+    /// G′, G″ or |G*|, Pa; 0 < G.
+    pub moduli: &'c [f64],
+}
+
+/// Horizontal shifts ln aₜ that lay each curve over its neighbour, from curves in the order of their temperatures.
+///
+/// The shift of two neighbours minimises the mean square of ln y − ln yₙ over the points of either that the other one
+/// reaches, a third of the shorter curve at least, with ln yₙ linear between the points of the neighbour in ln ω.
+/// `reference` is the curve whose shift is zero.
+///
+/// # Errors
+/// [`SpectraError::NotFinite`], [`SpectraError::WrongLength`]; [`SpectraError::OutOfBounds`] unless all numbers are positive,
+/// frequencies rise, each curve has three points and `reference` is a curve;
+/// [`SpectraError::NoOverlap`] where the moduli of neighbours have no range in common.
+///
+/// # Accuracy
+/// For exact power laws and curves that are smooth between their points, the error of the interpolation over the slope of the
+/// curve. Plateaus do not determine a shift.
+///
+/// # Example
+/// ```
+/// use piola_spectra::{IsothermalCurve, horizontal_shifts};
+/// let cold = IsothermalCurve { angular_frequencies: &[1.0, 2.0, 4.0, 8.0], moduli: &[2.0, 4.0, 8.0, 16.0] };
+/// let warm = IsothermalCurve { angular_frequencies: &[1.0, 2.0, 4.0, 8.0], moduli: &[1.0, 2.0, 4.0, 8.0] };
+/// // Warm times are half as long: aₜ = 1/2.
+/// let shifts = horizontal_shifts(&[cold, warm], 0)?;
+/// assert!((shifts[1] - 0.5_f64.ln()).abs() < 1e-6);
+/// # Ok::<(), piola_spectra::SpectraError>(())
+/// ```
+///
+/// # Source
+/// J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed., Wiley, 1980, chapter 11.
+pub fn horizontal_shifts(curves: &[IsothermalCurve<'_>], reference: usize) -> Result<Vec<f64>, SpectraError> {
+    check("reference", 0, reference as f64, "reference < number of curves", reference < curves.len())?;
+    let logarithms = curves.iter().map(logarithms).collect::<Result<Vec<_>, _>>()?;
+    let mut shifts = vec![0.0];
+    for (first, pair) in logarithms.windows(2).enumerate() {
+        let shift = overlap(&pair[0], &pair[1]).ok_or(SpectraError::NoOverlap { first, second: first + 1 })?;
+        shifts.push(shifts[first] + shift);
+    }
+    let zero = shifts[reference];
+    for shift in &mut shifts {
+        *shift -= zero;
+    }
+    Ok(shifts)
+}
+
+/// The points (ln ω, ln y) of a curve.
+fn logarithms(curve: &IsothermalCurve<'_>) -> Result<Vec<[f64; 2]>, SpectraError> {
+    let (frequencies, moduli) = (curve.angular_frequencies, curve.moduli);
+    if frequencies.len() != moduli.len() {
+        return Err(SpectraError::WrongLength {
+            quantity: "modulus",
+            expected: frequencies.len(),
+            found: moduli.len(),
+        });
+    }
+    check("number of points", 0, moduli.len() as f64, "3 ≤ number of points", 3 <= moduli.len())?;
+    let mut last = 0.0;
+    for (index, (&frequency, &modulus)) in frequencies.iter().zip(moduli).enumerate() {
+        check("angular frequency", index, frequency, "0 < ω, rising", last < frequency)?;
+        check("modulus", index, modulus, "0 < G", 0.0 < modulus)?;
+        last = frequency;
+    }
+    Ok(frequencies.iter().zip(moduli).map(|(w, y)| [w.ln(), y.ln()]).collect())
+}
+
+/// ln y of a curve at ln ω between its points; `None` outside.
+fn between(curve: &[[f64; 2]], at: f64) -> Option<f64> {
+    let next = curve.iter().position(|point| at <= point[0])?;
+    let [x, y] = curve[next];
+    if next == 0 {
+        return (x <= at).then_some(y);
+    }
+    let [x0, y0] = curve[next - 1];
+    Some(y0 + (y - y0) * (at - x0) / (x - x0))
+}
+
+/// The shift that lays `moved` over `fixed`; `None` where the ranges of their moduli are apart.
+fn overlap(fixed: &[[f64; 2]], moved: &[[f64; 2]]) -> Option<f64> {
+    const STEPS: u32 = 400;
+    let range = |curve: &[[f64; 2]]| {
+        let widen = |[low, high]: [f64; 2], point: &[f64; 2]| [low.min(point[1]), high.max(point[1])];
+        curve.iter().fold([f64::INFINITY, f64::NEG_INFINITY], widen)
+    };
+    let ([low, high], [lower, higher]) = (range(fixed), range(moved));
+    if high < lower || higher < low {
+        return None;
+    }
+    // Of both curves together; a pair of points alone matches anywhere.
+    let least = (fixed.len().min(moved.len()) / 3).max(4);
+    let mean_square = |shift: f64| {
+        let there = moved.iter().filter_map(|&[x, y]| Some(between(fixed, x + shift)? - y));
+        let back = fixed.iter().filter_map(|&[x, y]| Some(between(moved, x - shift)? - y));
+        let (count, sum) = there.chain(back).fold((0_usize, 0.0), |(n, sum), d| (n + 1, sum + d * d));
+        if count < least { f64::INFINITY } else { sum / count as f64 }
+    };
+    let (low, high) = (fixed[0][0] - moved[moved.len() - 1][0], fixed[fixed.len() - 1][0] - moved[0][0]);
+    let step = (high - low) / f64::from(STEPS);
+    let grid = (0..=STEPS).map(|k| low + step * f64::from(k));
+    let best = grid.min_by(|&a, &b| mean_square(a).total_cmp(&mean_square(b)))?;
+    if !mean_square(best).is_finite() {
+        return None;
+    }
+    // Golden section about the best point of the grid.
+    let share = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let (mut a, mut b) = (best - step, best + step);
+    for _ in 0..60 {
+        let (left, right) = (b - share * (b - a), a + share * (b - a));
+        if mean_square(left) <= mean_square(right) { b = right } else { a = left }
+    }
+    Some(0.5 * (a + b))
+}
+
+/// A law of temperature fitted to shifts, with 95 % intervals of its constants.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShiftFit<L, const N: usize> {
+    /// The law.
+    pub law: L,
+    /// 95 % interval of each constant; `None` where the data do not determine it.
+    pub intervals: [Option<[f64; 2]>; N],
+    /// √(S/m): the error of ln aₜ, root mean square.
+    pub error: f64,
+}
+
+/// Residuals of ln aₜ over positive constants; a law is made from them.
+struct Shifts<'s, L, const N: usize> {
+    temperatures: &'s [f64],
+    logarithms: &'s [f64],
+    law: &'s dyn Fn([f64; N]) -> Option<L>,
+    slopes: &'s dyn Fn([f64; N], f64) -> [f64; N],
+}
+
+impl<L: TemperatureShift, const N: usize> Shifts<'_, L, N> {
+    fn constants(x: &[f64]) -> [f64; N] {
+        core::array::from_fn(|k| Range::POSITIVE.outward(x[k])[0])
+    }
+}
+
+impl<L: TemperatureShift, const N: usize> Misfit for Shifts<'_, L, N> {
+    type State = ([f64; N], Vec<f64>);
+
+    fn rows(&self) -> usize {
+        self.temperatures.len()
+    }
+
+    fn visit(&mut self, x: &[f64]) -> Option<Self::State> {
+        let constants = Self::constants(x);
+        let law = (self.law)(constants)?;
+        let rows = self.temperatures.iter().zip(self.logarithms);
+        let residuals = rows.map(|(&t, measured)| Some(law.logarithm(t).ok()? - measured)).collect::<Option<_>>()?;
+        Some((constants, residuals))
+    }
+
+    fn residuals<'s>(&self, state: &'s Self::State) -> &'s [f64] {
+        &state.1
+    }
+
+    fn jacobian(&self, state: &Self::State, _: &[f64]) -> DMatrix<f64> {
+        DMatrix::from_fn(self.rows(), N, |row, k| state.0[k] * (self.slopes)(state.0, self.temperatures[row])[k])
+    }
+}
+
+/// Fits positive constants from `start`.
+fn fit<L: TemperatureShift, const N: usize>(
+    shifts: Shifts<'_, L, N>,
+    start: [f64; N],
+) -> Result<ShiftFit<L, N>, SpectraError> {
+    let (found, expected) = (shifts.logarithms.len(), shifts.temperatures.len());
+    if found != expected {
+        return Err(SpectraError::WrongLength { quantity: "ln aₜ", expected, found });
+    }
+    for (index, (&t, &logarithm)) in shifts.temperatures.iter().zip(shifts.logarithms).enumerate() {
+        check("temperature", index, t, "0 < θ", 0.0 < t)?;
+        check("ln aₜ", index, logarithm, "finite", true)?;
+    }
+    let count = expected as f64;
+    check("number of temperatures", 0, count, "number of constants < number of temperatures", N < expected)?;
+    let none = SpectraError::NoShift { law: L::NAME };
+    let x = start.map(|value| Range::POSITIVE.inward(value)).to_vec();
+    let law = shifts.law;
+    let end = minimise(shifts, x, 200, &|| false).ok_or_else(|| none.clone())?;
+    let (constants, residuals) = &end.state;
+    let squares: f64 = residuals.iter().map(|r| r * r).sum();
+    let degrees = expected - N;
+    let free: Vec<usize> = (0..N).collect();
+    let covariance = Covariance::new(&end.misfit.jacobian(&end.state, &[]), &free, squares / degrees as f64);
+    let factor = student(0.95, degrees);
+    let intervals = core::array::from_fn(|k| {
+        let place = covariance.parameters.iter().position(|&other| other == k)?;
+        let half = factor? * covariance.matrix[place][place].sqrt();
+        Some([constants[k] * (-half).exp(), constants[k] * half.exp()])
+    });
+    Ok(ShiftFit { law: law(*constants).ok_or(none)?, intervals, error: (squares / count).sqrt() })
+}
+
+/// The activation energy of Arrhenius from shifts ln aₜ at temperatures, K, by least squares of ln aₜ.
+///
+/// # Errors
+/// [`SpectraError::NotFinite`], [`SpectraError::WrongLength`]; [`SpectraError::OutOfBounds`] of temperatures, or for fewer than
+/// two; [`SpectraError::NoShift`] where no law was found.
+///
+/// # Example
+/// ```
+/// use piola_spectra::fit_arrhenius;
+/// // E/R = 1200 K: ln aₜ = 1200 (1/θ − 1/300).
+/// let fit = fit_arrhenius(&[300.0, 400.0], &[0.0, -1.0], 300.0)?;
+/// assert!((fit.law.activation_energy() / 8.31446261815324 - 1200.0).abs() < 1e-3);
+/// # Ok::<(), piola_spectra::SpectraError>(())
+/// ```
+pub fn fit_arrhenius(
+    temperatures: &[f64],
+    logarithms: &[f64],
+    reference_temperature: f64,
+) -> Result<ShiftFit<Arrhenius, 1>, SpectraError> {
+    let unit = Arrhenius::new(1.0, reference_temperature)?;
+    let law = |[energy]: [f64; 1]| Arrhenius::new(energy, reference_temperature).ok();
+    let slopes = |_: [f64; 1], t: f64| [unit.logarithm(t).unwrap_or(f64::NAN)];
+    fit(Shifts { temperatures, logarithms, law: &law, slopes: &slopes }, [5e4])
+}
+
+/// The constants C₁ and C₂, K, of Williams, Landel and Ferry from shifts ln aₜ at temperatures, K, by least squares of ln aₜ.
+///
+/// # Errors
+/// As [`fit_arrhenius`], with three temperatures or more.
+pub fn fit_williams_landel_ferry(
+    temperatures: &[f64],
+    logarithms: &[f64],
+    reference_temperature: f64,
+) -> Result<ShiftFit<WilliamsLandelFerry, 2>, SpectraError> {
+    let law = |[strength, width]: [f64; 2]| WilliamsLandelFerry::new(strength, width, reference_temperature).ok();
+    let slopes = |[strength, width]: [f64; 2], t: f64| {
+        let above = t - reference_temperature;
+        let share = above / (width + above) * core::f64::consts::LN_10;
+        [-share, strength * share / (width + above)]
+    };
+    let lowest = temperatures.iter().fold(reference_temperature, |least: f64, &t| least.min(t));
+    let start = [8.86, 101.6_f64.max(2.0 * (reference_temperature - lowest))];
+    fit(Shifts { temperatures, logarithms, law: &law, slopes: &slopes }, start)
+}
