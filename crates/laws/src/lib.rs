@@ -8,14 +8,17 @@ mod error;
 mod examine;
 pub mod invariants;
 mod methods;
+pub mod mixed;
 pub mod plane;
 pub mod strain;
 pub mod stretches;
+mod varied;
 
 pub use algebra::{Decoupled, OfVolume, Scaled, Sum};
 pub use error::LawsError;
 pub use examine::examine;
 pub use invariants::{EnergyOfInvariants, Excesses, OfInvariants};
+pub use mixed::{ThreeField, TwoField};
 pub use piola_solids::SolidsError;
 pub use strain::{EnergyOfStrain, OfStrain};
 pub use stretches::{EnergyOfStretches, OfStretches};

@@ -3,6 +3,7 @@
 mod algebra;
 mod alloc;
 mod coupled;
+mod mixed;
 mod plane;
 mod refusals;
 mod same;
