@@ -2,6 +2,8 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "batch")]
+pub mod abaqus;
 pub mod algebra;
 pub mod coupled;
 mod error;

@@ -1,5 +1,7 @@
 //! The tests of `piola-laws`.
 
+#[cfg(feature = "batch")]
+mod abaqus;
 mod algebra;
 mod alloc;
 mod coupled;
