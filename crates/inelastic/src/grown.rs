@@ -41,10 +41,13 @@ use crate::error::{check_bound, check_finite};
 /// Stos. 16 (1964) 103–108.
 #[doc(alias("growth", "thermal expansion", "eigenstrain", "swelling"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Grown<L> {
     law: L,
     growth: Rows<f64>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     inverse: Rows<f64>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     volume: f64,
 }
 

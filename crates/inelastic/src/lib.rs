@@ -16,6 +16,8 @@ mod path;
 mod points;
 mod reese_govindjee;
 mod viscoplastic;
+#[cfg(feature = "serde")]
+mod written;
 
 pub use bergstrom_boyce::{BergstromBoyce, PowerFlow};
 pub use driven_growth::DrivenGrowth;
@@ -26,6 +28,6 @@ pub use in_series::InSeries;
 pub use inelastic_point::{Advanced, InelasticPoint, NextIncrement};
 pub use mullins::Mullins;
 pub use path::{Effort, StepControl};
-pub use points::{OverHistory, advance_all};
+pub use points::{OverHistory, advance_all, advance_components};
 pub use reese_govindjee::ReeseGovindjee;
 pub use viscoplastic::{Hardening, Viscoplastic};

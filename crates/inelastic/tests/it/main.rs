@@ -8,6 +8,8 @@ mod newton;
 mod paths;
 mod refusals;
 mod specimens;
+#[cfg(feature = "serde")]
+mod written;
 
 use piola_testkit::CountingAllocator;
 
