@@ -8,8 +8,8 @@ use serde::{Deserialize, Deserializer};
 
 use crate::error::check_bound;
 use crate::{
-    BergstromBoyce, DrivenGrowth, Grown, Hardening, InSeries, InelasticError, Mullins, PowerFlow, ReeseGovindjee,
-    Viscoplastic,
+    BergstromBoyce, DrivenGrowth, Grown, Hardening, InSeries, InelasticError, Kinematic, Mullins, PowerFlow,
+    ReeseGovindjee, Viscoplastic,
 };
 
 /// Reads the fields of a law and makes it of them.
@@ -45,6 +45,8 @@ validated! {
     Grown [L] { law: L, growth: [[f64; 3]; 3] } Self::new(law, &matrix(growth));
     Hardening [] { yield_stress: f64, linear: f64, saturation: f64, saturation_exponent: f64 }
         Self { yield_stress, linear, saturation, saturation_exponent }.checked();
+    Kinematic [L, K] { elastic: L, back: K, hardening: Hardening, recovery: f64, viscosity: f64 }
+        Self::new(elastic, back, hardening, recovery, viscosity);
     Viscoplastic [L] { elastic: L, hardening: Hardening, viscosity: f64 } Self::new(elastic, hardening, viscosity);
 }
 

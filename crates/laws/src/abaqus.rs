@@ -177,7 +177,7 @@ pub fn stress_and_jaumann<O: VoigtOrder, L: Hyperelastic + Sync, F: Frame, V, W>
 
 impl<L: Hyperelastic, O: VoigtOrder, F: Frame> UserMaterial<'_, L, O, F> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn both<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>) -> [T; 42] {
+    fn both<T: Real, D: Deformation<T>>(self, point: &Point<T, D>) -> [T; 42] {
         let (stress, tangent) = self.law.cauchy_and_tangent(&F::deformation(point));
         let six = StressVector::<T, O>::of(&stress.0).components;
         let rows = StiffnessMatrix::<T, O>::of(&tangent.jaumann(&stress).0).entries;
@@ -196,7 +196,7 @@ impl<L: Hyperelastic, O: VoigtOrder, F: Frame> UserMaterial<'_, L, O, F> {
 
     /// Lanes that the law accepts, all or none of a block.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn accepts<T: Real>(&self, deformation: &impl Deformation<T>) -> T::Mask {
+    fn accepts<T: Real>(self, deformation: &impl Deformation<T>) -> T::Mask {
         match self.law.check(deformation) {
             Ok(()) => Mask::splat(true),
             Err(error) => refused(error),

@@ -3,6 +3,7 @@
 mod alloc;
 mod grown;
 mod in_series;
+mod kinematic;
 mod laws;
 mod newton;
 mod paths;

@@ -5,13 +5,14 @@ use core::fmt::Debug;
 
 use piola_continuum::DeformationGradient;
 use piola_inelastic::{
-    BergstromBoyce, DrivenGrowth, Grown, InSeries, InelasticPoint, Mullins, ReeseGovindjee, StepControl, Viscoplastic,
+    BergstromBoyce, DrivenGrowth, Grown, InSeries, InelasticPoint, Kinematic, Mullins, ReeseGovindjee, StepControl,
+    Viscoplastic,
 };
 use piola_solids::{Hencky, NeoHookeanCiarlet};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::paths::{bergstrom_boyce, mullins, reese_govindjee, viscoplastic};
+use super::paths::{bergstrom_boyce, kinematic, mullins, reese_govindjee, viscoplastic};
 
 type Fallible = Result<(), Box<dyn Error>>;
 type Spring = NeoHookeanCiarlet;
@@ -43,6 +44,9 @@ fn laws_written_and_read_again_equal_themselves_and_bad_ones_are_refused_by_name
     assert!(error.contains("σ₀ ≤ σ∞"), "{error}");
     let error = refused::<Viscoplastic<Hencky>>(&text, ["\"hardening\"", "\"softening\""]);
     assert!(error.contains("softening"), "{error}");
+    let text = again(&kinematic(0.5)?)?;
+    let error = refused::<Kinematic<Hencky, Spring>>(&text, ["\"recovery\":", "\"recovery\":-"]);
+    assert!(error.contains("0 ≤ β"), "{error}");
     let text = again(&mullins()?)?;
     assert!(refused::<Mullins<Spring>>(&text, ["\"softening\":", "\"softening\":-"]).contains("1 ≤ r"));
     let spring = Spring::with_constants(1.0, 2.0)?;
