@@ -60,6 +60,8 @@ pub struct Grown<L> {
 /// assert!((steel.stretch(393.15) - 1.001_2).abs() < 1e-6);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ThermalExpansion {
     /// α, 1/K.
     pub coefficient: f64,

@@ -24,7 +24,7 @@
 //! let (mut u, mut d) = (vec![[0.0; 6]; 100], vec![[0.0; 36]; 100]);
 //! let requests = (stress::<Piola, _, _, _>(&law, Corotated, &mut u[..]), jaumann::<Piola, _, _, _>(&law, Corotated, &mut d[..]));
 //! batch::evaluate(&f[..], requests)?;
-//! assert!((u[99][0] - 15.0).abs() < 1e-13); // F = U
+//! assert!((u[99][0] - 15.0_f64).abs() < 1e-13); // F = U
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

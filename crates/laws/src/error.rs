@@ -58,7 +58,7 @@ pub enum LawsError {
         /// F₃₃ of the best thickness.
         thickness_stretch: f64,
     },
-    /// A given volume or pressure is not finite or out of bounds.
+    /// A given volume, pressure or strain is not finite or out of bounds.
     #[error("{quantity} = {value} must be finite and satisfy {bound}")]
     OutOfBounds {
         /// The argument.

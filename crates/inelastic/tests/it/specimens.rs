@@ -31,6 +31,8 @@ fn sides_of_a_bar_of_the_next_increment_are_free_of_stress() -> Result<(), Box<d
 }
 
 type Family = fn(f64) -> Result<Controls, SpecimensError>;
+/// A name, the test at a drive, and the components of P that vanish.
+type Test = (&'static str, Family, &'static [(usize, usize)]);
 
 /// Each test of the homogeneous family, driven over three increments in time.
 #[test]
@@ -38,7 +40,7 @@ fn free_faces_of_every_homogeneous_test_have_no_stress_over_time() -> Result<(),
     let law = reese_govindjee()?;
     let control = StepControl::new(1e-5)?;
     let tol = Tol::stated(1e-9, "the specimen's equilibrium");
-    let families: [(&str, Family, &[(usize, usize)]); 4] = [
+    let families: [Test; 4] = [
         ("uniaxial", |x| Controls::uniaxial(1.0 + x), &[(1, 1), (2, 2)]),
         ("equibiaxial", |x| Controls::equibiaxial(1.0 + x), &[(2, 2)]),
         ("planar", |x| Controls::planar(1.0 + x), &[(2, 2)]),

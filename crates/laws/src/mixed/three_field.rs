@@ -35,7 +35,7 @@ use crate::LawsError;
 /// let law = Compressible::new(NeoHookean::new(2.0)?, Quadratic::new(1000.0)?);
 /// let shear = DeformationGradient::simple_shear(0.5)?;
 /// let at = ThreeField::checked(&law, &shear, 0.25, 100.0)?; // θ = 1.25, p = 100 Pa
-/// assert!((at.first_piola.0[(0, 1)] - 1.0_f64).abs() < 1e-13); // μ k; the cofactor has no entry there
+/// assert!((at.first_piola.0[(1, 0)] - 1.0_f64).abs() < 1e-13); // μ k: cof F has no entry there
 /// assert!((at.volume_residual - 150.0_f64).abs() < 1e-11); // κ (θ − 1) − p
 /// assert_eq!(at.pressure_residual, -0.25); // J − θ
 /// assert!((at.bulk - 1000.0_f64).abs() < 1e-10); // κ
