@@ -134,6 +134,16 @@ PiolaStatus piola_stress(const PiolaSolid *solid,
                          double *out,
                          size_t out_length);
 
+// Strain energy at n points, J/m^3 of the reference, less that of the undeformed body.
+//
+// `f` has the deformation gradients, 9 n numbers by rows; `out` gets n numbers. After `PIOLA_STATUS_BAD_POINTS` the energies of bad
+// points are NaN, and all others are written.
+PiolaStatus piola_energy(const PiolaSolid *solid,
+                         const double *f,
+                         size_t f_length,
+                         double *out,
+                         size_t out_length);
+
 // Tangent at n points.
 //
 // `tangent` is a `PiolaTangent`, `voigt` a `PiolaVoigt`. `out` gets 81 or 36 numbers a point, Pa, by rows.

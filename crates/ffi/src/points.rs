@@ -19,6 +19,7 @@
 //! ```
 
 use piola::batch::{BatchError, Gradients, Quantity, Request, evaluate};
+use piola::continuum::DeformationGradient;
 use piola::solids::batch::{BadPoint, first_piola, first_piola_and_tangent};
 use piola::solids::{AnySolid, Hyperelastic, SolidVisitor, SolidsError, batch};
 use piola::tensor::MajorSymmetric;
@@ -254,6 +255,50 @@ pub fn stress(law: &AnySolid, measure: StressMeasure, f: &[[f64; 9]], out: &mut 
         }
     }
     bad.finish(f.len())
+}
+
+/// W(F) − W(1) at each point, J/m³.
+///
+/// Points are computed one after the other, not in lanes: a sum of energies is wanted once where stresses are wanted often, and
+/// energies in lanes would lengthen the build of this library.
+///
+/// # Errors
+/// As [`stress`].
+///
+/// # Accuracy
+/// That of the law's energy.
+///
+/// # Example
+/// ```
+/// use piola::solids::SaintVenantKirchhoff;
+/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?.into();
+/// let mut w = [0.0];
+/// piola_ffi::points::energy(&law, &[[2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]], &mut w)?;
+/// assert_eq!(w[0], 5.625); // ½ (λ + 2 μ) E₁₁², E₁₁ = 3/2
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn energy(law: &AnySolid, f: &[[f64; 9]], out: &mut [f64]) -> Result<(), FfiError> {
+    check_length("energies", f.len(), out.len())?;
+    let mut bad = Bad::default();
+    for (index, (f, out)) in f.iter().zip(out).enumerate() {
+        match energy_at(law, f) {
+            Ok(energy) => *out = energy,
+            Err(error) => {
+                *out = f64::NAN;
+                bad.count += 1;
+                bad.first.get_or_insert(BadPoint { index, error });
+            }
+        }
+    }
+    bad.finish(f.len())
+}
+
+fn energy_at(law: &AnySolid, f: &[f64; 9]) -> Result<f64, SolidsError> {
+    let [a, b, c, d, e, g, h, i, j] = *f;
+    let deformation = DeformationGradient::from_rows([[a, b, c], [d, e, g], [h, i, j]])?;
+    law.check(&deformation)?;
+    let energy = law.energy(&deformation);
+    if energy.is_finite() { Ok(energy) } else { Err(SolidsError::Overflow { answer: "energy" }) }
 }
 
 /// The tangent at each point, by rows: 81 numbers for ∂P/∂F, 36 in the order of `numbering` for the others. Of a law of linear

@@ -29,6 +29,7 @@ use crate::{Evolution, InelasticError, flow};
 /// assert!(PowerFlow { stretch_exponent: 0.5, ..flow }.checked().is_err());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PowerFlow {
     /// γ̇₀, 1/s.
     pub rate: f64,
@@ -91,6 +92,7 @@ impl PowerFlow {
 /// # Source
 /// J. S. Bergström and M. C. Boyce, J. Mech. Phys. Solids 46 (1998) 931–954.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BergstromBoyce<A, B> {
     equilibrium: A,
     overstress: B,

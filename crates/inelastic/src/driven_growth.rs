@@ -41,6 +41,7 @@ use crate::{Evolution, InelasticError, flow};
 /// # Source
 /// V. A. Lubarda and A. Hoger, Int. J. Solids Structures 39 (2002) 4627–4664.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DrivenGrowth<L> {
     law: L,
     rate: f64,

@@ -41,10 +41,13 @@ use crate::error::{check_bound, check_finite};
 /// Stos. 16 (1964) 103–108.
 #[doc(alias("growth", "thermal expansion", "eigenstrain", "swelling"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Grown<L> {
     law: L,
     growth: Rows<f64>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     inverse: Rows<f64>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     volume: f64,
 }
 
@@ -57,6 +60,8 @@ pub struct Grown<L> {
 /// assert!((steel.stretch(393.15) - 1.001_2).abs() < 1e-6);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ThermalExpansion {
     /// α, 1/K.
     pub coefficient: f64,

@@ -40,11 +40,13 @@ use crate::{Evolution, InelasticError, flow};
 /// ```
 #[doc(alias("series", "network", "Poynting-Thomson", "Zener"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct InSeries<A, B> {
     first: A,
     second: B,
     viscosity: f64,
     /// The largest component of ∂S/∂E of both at rest, Pa: what stresses are divided by.
+    #[cfg_attr(feature = "serde", serde(skip))]
     modulus: f64,
 }
 

@@ -10,12 +10,15 @@ mod flow;
 mod grown;
 mod in_series;
 mod inelastic_point;
+mod kinematic;
 mod mullins;
 mod newton;
 mod path;
 mod points;
 mod reese_govindjee;
 mod viscoplastic;
+#[cfg(feature = "serde")]
+mod written;
 
 pub use bergstrom_boyce::{BergstromBoyce, PowerFlow};
 pub use driven_growth::DrivenGrowth;
@@ -24,8 +27,9 @@ pub use evolution::Evolution;
 pub use grown::{Grown, ThermalExpansion};
 pub use in_series::InSeries;
 pub use inelastic_point::{Advanced, InelasticPoint, NextIncrement};
+pub use kinematic::Kinematic;
 pub use mullins::Mullins;
 pub use path::{Effort, StepControl};
-pub use points::{OverHistory, advance_all};
+pub use points::{OverHistory, advance_all, advance_components};
 pub use reese_govindjee::ReeseGovindjee;
 pub use viscoplastic::{Hardening, Viscoplastic};

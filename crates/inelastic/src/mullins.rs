@@ -46,6 +46,7 @@ use crate::{Evolution, InelasticError};
 /// R. W. Ogden and D. G. Roxburgh, Proc. R. Soc. Lond. A 455 (1999) 2861–2877.
 #[doc(alias("damage", "stress softening", "pseudo-elasticity"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Mullins<L> {
     law: L,
     softening: f64,

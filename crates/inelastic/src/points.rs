@@ -8,7 +8,7 @@ use piola_continuum::{DeformationGradient, FirstPiola};
 use piola_solids::memory::{History, SimpleMaterial};
 
 use crate::error::check_bound;
-use crate::{Evolution, InelasticError, InelasticPoint, StepControl};
+use crate::{Advanced, Evolution, InelasticError, InelasticPoint, StepControl};
 
 /// Leads points of one law to new deformations in the time `dt`, s: their states, and stress and consistent tangent of each.
 ///
@@ -23,36 +23,118 @@ pub fn advance_all<L: Evolution<S, X>, const S: usize, const X: usize>(
     stresses: &mut [FirstPiola],
     tangents: &mut [FirstPiolaTangent],
 ) -> Result<(), InelasticError> {
-    let expected = states.len();
-    for (quantity, found) in [
-        ("deformations before", from.len()),
-        ("deformations after", to.len()),
-        ("stresses", stresses.len()),
-        ("tangents", tangents.len()),
-    ] {
-        if found != expected {
-            return Err(InelasticError::WrongLength { quantity, expected, found });
-        }
-    }
+    let outputs = (stresses, tangents);
+    let count = states.len();
+    check_lengths(count, [from.len(), to.len(), outputs.0.len(), outputs.1.len()])?;
     let mut first = None;
     for (index, state) in states.iter_mut().enumerate() {
         let advanced = InelasticPoint::with_state(law, state, &from[index])
             .and_then(|mut point| point.advance(&to[index], dt, control));
-        match advanced {
-            Ok(advanced) => {
-                *state = advanced.state;
-                (stresses[index], tangents[index]) = (advanced.first_piola, advanced.tangent);
-            }
-            Err(error) => {
-                stresses[index] = FirstPiola(Matrix3::repeat(f64::NAN));
-                tangents[index].0.components = [[f64::NAN; 9]; 9];
-                if first.is_none() {
-                    first = Some(InelasticError::AtPoint { index, error: Box::new(error) });
-                }
+        if let Some(after) = written(index, advanced, outputs.0, outputs.1, &mut first) {
+            *state = after;
+        }
+    }
+    first.map_or(Ok(()), Err)
+}
+
+/// As [`advance_all`], each internal variable of all points an array of its own, and with a law for each point: `law` returns that of
+/// an index, so that parameters may differ from element to element.
+///
+/// # Errors
+/// Those of [`advance_all`], and of `law`, which count as those of its point.
+///
+/// # Example
+/// Two points whose viscosities differ, held for a second after a fast shear.
+/// ```
+/// use piola_continuum::stress::tangents::FirstPiolaTangent;
+/// use piola_continuum::{DeformationGradient, FirstPiola};
+/// use piola_inelastic::{Evolution, ReeseGovindjee, StepControl, advance_components};
+/// use piola_solids::NeoHookeanCiarlet;
+/// use piola_tensor::FourthOrder;
+/// let spring = NeoHookeanCiarlet::with_constants(1.0, 2.0)?;
+/// let viscosities = [1e-3, 1e6]; // Pa s
+/// let law = |index: usize| ReeseGovindjee::new(spring, spring, viscosities[index]);
+/// let initial = law(0)?.initial();
+/// let mut arrays: Vec<Vec<f64>> = initial.iter().map(|value| vec![*value; 2]).collect();
+/// let mut states: Vec<&mut [f64]> = arrays.iter_mut().map(Vec::as_mut_slice).collect();
+/// let states: &mut [&mut [f64]; 9] = states.as_mut_slice().try_into()?;
+/// let sheared = [DeformationGradient::simple_shear(0.3)?; 2];
+/// let mut stresses = [FirstPiola::zero(); 2];
+/// let mut tangents = [FirstPiolaTangent(FourthOrder::zero()); 2];
+/// let control = StepControl::one_step();
+/// advance_components(law, states, [&sheared, &sheared], (1.0, &control), &mut stresses, &mut tangents)?;
+/// assert!((stresses[0].0[(0, 1)] - 0.3_f64).abs() < 1e-3); // μ k: the second spring has flown
+/// assert!((stresses[1].0[(0, 1)] - 0.6_f64).abs() < 1e-3); // 2 μ k: it has not
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn advance_components<L: Evolution<S, X>, const S: usize, const X: usize>(
+    law: impl Fn(usize) -> Result<L, InelasticError>,
+    states: &mut [&mut [f64]; S],
+    [from, to]: [&[DeformationGradient]; 2],
+    (dt, control): (f64, &StepControl),
+    stresses: &mut [FirstPiola],
+    tangents: &mut [FirstPiolaTangent],
+) -> Result<(), InelasticError> {
+    let outputs = (stresses, tangents);
+    let count = from.len();
+    for found in states.iter().map(|states| states.len()) {
+        if found != count {
+            return Err(InelasticError::WrongLength { quantity: "states", expected: count, found });
+        }
+    }
+    check_lengths(count, [count, to.len(), outputs.0.len(), outputs.1.len()])?;
+    let mut first = None;
+    for index in 0..count {
+        let mut state = [0.0; S];
+        for (value, all) in state.iter_mut().zip(&*states) {
+            *value = all[index];
+        }
+        let advanced = law(index).and_then(|law| {
+            InelasticPoint::with_state(&law, &state, &from[index])
+                .and_then(|mut point| point.advance(&to[index], dt, control))
+        });
+        if let Some(after) = written(index, advanced, outputs.0, outputs.1, &mut first) {
+            for (value, all) in after.iter().zip(&mut *states) {
+                all[index] = *value;
             }
         }
     }
     first.map_or(Ok(()), Err)
+}
+
+fn check_lengths(expected: usize, found: [usize; 4]) -> Result<(), InelasticError> {
+    for (quantity, found) in
+        ["deformations before", "deformations after", "stresses", "tangents"].into_iter().zip(found)
+    {
+        if found != expected {
+            return Err(InelasticError::WrongLength { quantity, expected, found });
+        }
+    }
+    Ok(())
+}
+
+/// Writes stress and tangent of a point and returns its new state; of a point that failed NaN, and notes the first such error.
+fn written<const S: usize>(
+    index: usize,
+    advanced: Result<Advanced<S>, InelasticError>,
+    stresses: &mut [FirstPiola],
+    tangents: &mut [FirstPiolaTangent],
+    first: &mut Option<InelasticError>,
+) -> Option<[f64; S]> {
+    match advanced {
+        Ok(advanced) => {
+            (stresses[index], tangents[index]) = (advanced.first_piola, advanced.tangent);
+            Some(advanced.state)
+        }
+        Err(error) => {
+            stresses[index] = FirstPiola(Matrix3::repeat(f64::NAN));
+            tangents[index].0.components = [[f64::NAN; 9]; 9];
+            if first.is_none() {
+                *first = Some(InelasticError::AtPoint { index, error: Box::new(error) });
+            }
+            None
+        }
+    }
 }
 
 /// A law with internal variables as a material with memory: the stress as a function of the history, for the checks of

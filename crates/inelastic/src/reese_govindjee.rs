@@ -37,6 +37,7 @@ use crate::{Evolution, InelasticError, flow};
 /// # Source
 /// S. Reese and S. Govindjee, Int. J. Solids Structures 35 (1998) 3455–3482.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReeseGovindjee<A, B> {
     equilibrium: A,
     overstress: B,

@@ -27,6 +27,7 @@ use crate::{Evolution, InelasticError, flow};
 /// # Source
 /// J. C. Simo, Comput. Methods Appl. Mech. Engrg. 68 (1988) 1–31.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Hardening {
     /// σ₀, Pa.
     pub yield_stress: f64,
@@ -98,6 +99,7 @@ impl Hardening {
 /// G. Weber and L. Anand, Comput. Methods Appl. Mech. Engrg. 79 (1990) 173–202.
 #[doc(alias("von Mises", "J2", "Perzyna", "plasticity"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Viscoplastic<L> {
     elastic: L,
     hardening: Hardening,

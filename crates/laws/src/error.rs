@@ -4,7 +4,7 @@ use piola_continuum::ContinuumError;
 
 use crate::SolidsError;
 
-/// A violated condition of an energy or of a state in the plane.
+/// A violated condition of an energy, of a state in the plane or of a mixed form.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LawsError {
@@ -57,6 +57,28 @@ pub enum LawsError {
         normal_stress: f64,
         /// F₃₃ of the best thickness.
         thickness_stretch: f64,
+    },
+    /// A given volume, pressure or strain is not finite or out of bounds.
+    #[error("{quantity} = {value} must be finite and satisfy {bound}")]
+    OutOfBounds {
+        /// The argument.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is valid.
+        bound: &'static str,
+    },
+    /// No volume was found at which the law has the given mean stress.
+    #[error(
+        "no volume gives the law the mean stress {mean_stress:e} Pa: the best, θ = {volume}, misses it by {residual:e} Pa"
+    )]
+    NoVolume {
+        /// p, Pa.
+        mean_stress: f64,
+        /// θ of the best volume.
+        volume: f64,
+        /// The mean stress of the law there less p, Pa.
+        residual: f64,
     },
     /// The deformation is refused.
     #[error(transparent)]

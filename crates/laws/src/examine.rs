@@ -13,7 +13,7 @@ use crate::LawsError;
 /// meant to have a stress in its reference configuration, such as a grown one, is reported as well.
 ///
 /// # Errors
-/// [`LawsError`]: the first violated condition.
+/// [`LawsError`]: the first violated condition; [`LawsError::OutOfBounds`] unless `strain` is finite and positive.
 ///
 /// # Example
 /// ```
@@ -34,6 +34,9 @@ use crate::LawsError;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn examine(law: &impl Hyperelastic, strain: f64) -> Result<(), LawsError> {
+    if !(strain.is_finite() && 0.0 < strain) {
+        return Err(LawsError::OutOfBounds { quantity: "strain", value: strain, bound: "0 < strain" });
+    }
     let rest = DisplacementGradient::<f64>::new(Matrix3::zeros()).unwrap_or_default();
     finite(law, &rest)?;
     let (stress, tangent) = law.second_piola_and_tangent(&rest);

@@ -2,21 +2,26 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "batch")]
+pub mod abaqus;
 pub mod algebra;
 pub mod coupled;
 mod error;
 mod examine;
 pub mod invariants;
 mod methods;
+pub mod mixed;
 pub mod plane;
 pub mod rubber;
 pub mod strain;
 pub mod stretches;
+mod varied;
 
 pub use algebra::{Decoupled, OfVolume, Scaled, Sum};
 pub use error::LawsError;
 pub use examine::examine;
 pub use invariants::{EnergyOfInvariants, Excesses, OfInvariants};
+pub use mixed::{ThreeField, TwoField};
 pub use piola_solids::SolidsError;
 pub use strain::{EnergyOfStrain, OfStrain};
 pub use stretches::{EnergyOfStretches, OfStretches};

@@ -165,6 +165,29 @@ pub unsafe extern "C" fn piola_stress(
     })
 }
 
+/// Strain energy at n points, J/m^3 of the reference, less that of the undeformed body.
+///
+/// `f` has the deformation gradients, 9 n numbers by rows; `out` gets n numbers. After `PIOLA_STATUS_BAD_POINTS` the energies of bad
+/// points are NaN, and all others are written.
+///
+/// # Safety
+/// See the [module](super).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_energy(
+    solid: *const PiolaSolid,
+    f: *const f64,
+    f_length: usize,
+    out: *mut f64,
+    out_length: usize,
+) -> PiolaStatus {
+    answer(|| {
+        // SAFETY: as the caller promises.
+        let (solid, f, out) =
+            unsafe { (handle("solid", solid)?, slice("f", f, f_length)?, slice_mut("out", out, out_length)?) };
+        points::energy(&solid.0, points("f", f)?, out)
+    })
+}
+
 /// Tangent at n points.
 ///
 /// `tangent` is a `PiolaTangent`, `voigt` a `PiolaVoigt`. `out` gets 81 or 36 numbers a point, Pa, by rows.

@@ -34,6 +34,9 @@ int main(void) {
     check(piola_solid_from_values("saint_venant_kirchhoff", values, 2, &solid) == PIOLA_STATUS_OK, "law");
     check(piola_stress(solid, PIOLA_STRESS_CAUCHY, f, 18, stress, 18) == PIOLA_STATUS_OK, "Cauchy stress");
     check(stress[0] == 15.0 && stress[9] == 0.0, "T11 = F11^2 (lambda + 2 mu) E11/J");
+    double energy[2];
+    check(piola_energy(solid, f, 18, energy, 2) == PIOLA_STATUS_OK && energy[0] == 5.625 && energy[1] == 0.0,
+          "W = (lambda + 2 mu) E11^2/2");
     check(piola_stress(solid, PIOLA_STRESS_FIRST_PIOLA, f, 18, stress, 18) == PIOLA_STATUS_OK && stress[0] == 15.0,
           "P11 = F11 S11");
     check(piola_stress(solid, PIOLA_STRESS_SECOND_PIOLA, f, 18, stress, 18) == PIOLA_STATUS_OK && stress[0] == 7.5,

@@ -12,7 +12,7 @@ fn a_program_in_c_gets_stresses_tangents_flows_and_messages() {
     let flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-pedantic", &include];
     let program = compiled("cc", "c", &flags, &[folder.join("tests/c/program.c")]);
     let text = printed(&program, &[]);
-    assert!(text.ends_with("all 18 checks passed\n"), "{text}");
+    assert!(text.ends_with("all 19 checks passed\n"), "{text}");
 }
 
 #[test]

@@ -10,7 +10,8 @@ use piola::solids::{
     MooneyRivlin, Polynomial, PolynomialTerm, SaintVenantKirchhoff, Stiffness,
 };
 use piola::tensor::voigt::{Abaqus, Classical, Piola, StiffnessMatrix};
-use piola_ffi::points::{StressMeasure, TangentMeasure, VoigtNumbering, stress, stress_and_tangent, tangent};
+use piola_ffi::FfiError;
+use piola_ffi::points::{StressMeasure, TangentMeasure, VoigtNumbering, energy, stress, stress_and_tangent, tangent};
 use piola_testkit::{Tol, assert_each_close_at_scales, strategies};
 use proptest::prelude::*;
 
@@ -85,6 +86,23 @@ proptest! {
             let jaumann = truesdell.jaumann(&cauchy);
             close(&six, &flat(&StiffnessMatrix::<f64, Abaqus>::of(&jaumann.0).entries), condition);
         }
+    }
+}
+
+/// W of the library, bad points NaN and named, lengths refused.
+#[test]
+fn energies_equal_those_of_the_laws() {
+    let mut f = [[1.1, 0.2, 0.0, -0.1, 0.9, 0.3, 0.05, 0.1, 1.02]; 3];
+    f[1] = [0.0; 9];
+    for law in laws() {
+        let mut found = [0.0; 3];
+        let result = energy(&law, &f, &mut found);
+        assert!(matches!(result, Err(FfiError::BadPoints { bad: 1, count: 3, index: 1, .. })), "{result:?}");
+        let deformation = DeformationGradient::<f64>::from_rows([[1.1, 0.2, 0.0], [-0.1, 0.9, 0.3], [0.05, 0.1, 1.02]]);
+        let expected = law.energy(&deformation.unwrap());
+        assert_eq!((found[0], found[2]), (expected, expected));
+        assert!(found[1].is_nan() && 0.0 < expected);
+        assert!(matches!(energy(&law, &f, &mut found[1..]), Err(FfiError::WrongLength { quantity: "energies", .. })));
     }
 }
 

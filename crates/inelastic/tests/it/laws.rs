@@ -10,7 +10,7 @@ use piola_specimens::checks::{Search, history_indifference};
 use piola_testkit::spectral::{Random, with_stretches};
 use piola_testkit::{Tol, assert_close};
 
-use super::paths::{bergstrom_boyce, driven_growth, mullins, reese_govindjee, viscoplastic};
+use super::paths::{bergstrom_boyce, driven_growth, kinematic, mullins, reese_govindjee, viscoplastic};
 
 type Fallible = Result<(), Box<dyn Error>>;
 
@@ -44,7 +44,8 @@ fn dissipation_of_steps_on_random_paths_is_not_negative() -> Fallible {
     check_dissipation("Bergström–Boyce", &bergstrom_boyce()?)?;
     check_dissipation("Reese–Govindjee", &reese_govindjee()?)?;
     check_dissipation("viscoplastic", &viscoplastic(0.5)?)?;
-    check_dissipation("plastic", &viscoplastic(0.0)?)
+    check_dissipation("plastic", &viscoplastic(0.0)?)?;
+    check_dissipation("kinematic", &kinematic(0.0)?)
 }
 
 /// Work of a closed path that ends where it began, by the trapezoidal rule: Mullins' law stores nothing that it does not give back.
@@ -119,6 +120,10 @@ fn the_checker_of_histories_finds_no_dependence_on_the_observer() -> Fallible {
     let material = OverHistory::new(&plastic, 1.0, 20, StepControl::one_step())?;
     let report = history_indifference(&material, 1.0, &search);
     assert!(report.passes(), "{report:?}, {:?}", material.failure());
+    let kinematic = kinematic(0.0)?;
+    let material = OverHistory::new(&kinematic, 1.0, 10, StepControl::one_step())?;
+    let report = history_indifference(&material, 1.0, &search);
+    assert!(report.passes(), "{report:?}, {:?}", material.failure());
     let flowing = bergstrom_boyce()?;
     let material = OverHistory::new(&flowing, 1.0, 20, StepControl::one_step())?;
     let report = history_indifference(&material, 1.0, &search);
@@ -139,6 +144,7 @@ fn stresses_of_laws_without_a_rate_do_not_depend_on_the_time() -> Fallible {
         Ok(())
     }
     check("plastic", &viscoplastic(0.0)?)?;
+    check("kinematic", &kinematic(0.0)?)?;
     check("Mullins", &mullins()?)
 }
 

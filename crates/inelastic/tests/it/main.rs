@@ -3,11 +3,14 @@
 mod alloc;
 mod grown;
 mod in_series;
+mod kinematic;
 mod laws;
 mod newton;
 mod paths;
 mod refusals;
 mod specimens;
+#[cfg(feature = "serde")]
+mod written;
 
 use piola_testkit::CountingAllocator;
 

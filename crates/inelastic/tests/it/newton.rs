@@ -7,7 +7,7 @@ use piola_continuum::DeformationGradient;
 use piola_inelastic::{Evolution, InelasticPoint, StepControl};
 use piola_testkit::{Tol, assert_close};
 
-use super::paths::{bergstrom_boyce, driven_growth, mullins, reese_govindjee, viscoplastic};
+use super::paths::{bergstrom_boyce, driven_growth, kinematic, mullins, reese_govindjee, viscoplastic};
 
 type Fallible = Result<(), Box<dyn Error>>;
 
@@ -62,7 +62,9 @@ fn consistent_tangents_equal_difference_quotients_of_the_stress() -> Fallible {
     check_tangent("Reese–Govindjee, extrapolated", &reese_govindjee()?, &controlled)?;
     check_tangent("driven growth, extrapolated", &driven_growth()?, &controlled)?;
     check_tangent("viscoplastic", &viscoplastic(0.5)?, &one)?;
-    check_tangent("plastic", &viscoplastic(0.0)?, &one)
+    check_tangent("plastic", &viscoplastic(0.0)?, &one)?;
+    check_tangent("kinematic, viscous", &kinematic(0.5)?, &one)?;
+    check_tangent("kinematic", &kinematic(0.0)?, &one)
 }
 
 /// Residuals of the free sides of a bar that is pulled, iteration by iteration.
@@ -101,6 +103,7 @@ fn newtons_method_for_free_sides_converges_quadratically_with_the_consistent_tan
     check_quadratic("Reese–Govindjee", &residuals(&reese_govindjee()?)?);
     check_quadratic("viscoplastic", &residuals(&viscoplastic(0.5)?)?);
     check_quadratic("plastic", &residuals(&viscoplastic(0.0)?)?);
+    check_quadratic("kinematic", &residuals(&kinematic(0.0)?)?);
     check_quadratic("driven growth", &residuals(&driven_growth()?)?);
     check_quadratic("Mullins", &residuals(&mullins()?)?);
     Ok(())

@@ -4,7 +4,7 @@ use core::error::Error;
 
 use piola_continuum::DeformationGradient;
 use piola_inelastic::{
-    BergstromBoyce, DrivenGrowth, Evolution, Hardening, InelasticPoint, Mullins, PowerFlow, ReeseGovindjee,
+    BergstromBoyce, DrivenGrowth, Evolution, Hardening, InelasticPoint, Kinematic, Mullins, PowerFlow, ReeseGovindjee,
     StepControl, Viscoplastic,
 };
 use piola_numerics::linear::matrix3::determinant;
@@ -61,6 +61,12 @@ pub(crate) fn bergstrom_boyce() -> Result<BergstromBoyce<NeoHookeanCiarlet, NeoH
 pub(crate) fn reese_govindjee() -> Result<ReeseGovindjee<NeoHookeanCiarlet, NeoHookeanCiarlet>, Box<dyn Error>> {
     let (rest, spring) = springs()?;
     Ok(ReeseGovindjee::new(rest, spring, 0.75)?.with_bulk_viscosity(3.0)?)
+}
+
+pub(crate) fn kinematic(viscosity: f64) -> Result<Kinematic<Hencky, NeoHookeanCiarlet>, Box<dyn Error>> {
+    let hardening = Hardening { yield_stress: 0.25, linear: 0.125, saturation: 0.5, saturation_exponent: 4.0 };
+    let back = NeoHookeanCiarlet::with_constants(0.25, 0.5)?;
+    Ok(Kinematic::new(Hencky::new(3.0, 2.0)?, back, hardening, 1.5, viscosity)?)
 }
 
 pub(crate) fn viscoplastic(viscosity: f64) -> Result<Viscoplastic<Hencky>, Box<dyn Error>> {

@@ -6,6 +6,7 @@ use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::{DeformationGradient, FirstPiola};
 use piola_inelastic::{
     Evolution, Hardening, InelasticError, InelasticPoint, Mullins, PowerFlow, StepControl, Viscoplastic, advance_all,
+    advance_components,
 };
 use piola_numerics::Real;
 use piola_solids::{Hencky, NeoHookeanCiarlet};
@@ -99,5 +100,38 @@ fn arrays_of_the_wrong_length_are_refused_and_points_that_fail_are_named() -> Fa
     assert_eq!(stresses[2], stresses[0]);
     let single = InelasticPoint::new(&law).advance(&shear, 0.1, &control)?;
     assert_eq!((stresses[2], tangents[2].0, states[2]), (single.first_piola, single.tangent.0, single.state));
+    Ok(())
+}
+
+#[test]
+fn arrays_of_components_give_the_numbers_of_arrays_of_states() -> Fallible {
+    let law = bergstrom_boyce()?;
+    let control = StepControl::one_step();
+    let rest = [DeformationGradient::<f64>::identity(); 3];
+    let to = [0.1, 0.2, 0.3].map(|k| DeformationGradient::simple_shear(k).expect("finite"));
+    let tangent = FirstPiolaTangent(FourthOrder { components: [[0.0; 9]; 9] });
+    let (mut states, mut stresses, mut tangents) = ([law.initial(); 3], [FirstPiola::zero(); 3], [tangent; 3]);
+    advance_all(&law, &mut states, [&rest, &to], (0.1, &control), &mut stresses, &mut tangents)?;
+    let mut arrays: Vec<Vec<f64>> = law.initial().iter().map(|value| vec![*value; 3]).collect();
+    let mut columns = arrays.iter_mut().map(Vec::as_mut_slice);
+    let mut columns: [&mut [f64]; 9] = core::array::from_fn(|_| columns.next().expect("nine"));
+    let (mut other, mut others) = ([FirstPiola::zero(); 3], [tangent; 3]);
+    // The second point has a law that cannot be made.
+    let of = |index: usize| {
+        if index == 1 { Mullins::new(Hencky::new(1.0, 1.0)?, 0.5, 1.0, 0.0).map(|_| law) } else { Ok(law) }
+    };
+    let error = advance_components(of, &mut columns, [&rest, &to], (0.1, &control), &mut other, &mut others);
+    assert!(matches!(error, Err(InelasticError::AtPoint { index: 1, .. })), "{error:?}");
+    assert!(other[1].0[(0, 0)].is_nan());
+    for index in [0, 2] {
+        let state: Vec<f64> = columns.iter().map(|column| column[index]).collect();
+        assert_eq!((&state[..], other[index], others[index]), (&states[index][..], stresses[index], tangents[index]));
+    }
+    columns[4] = &mut [];
+    let error = advance_components(|_| Ok(law), &mut columns, [&rest, &to], (0.1, &control), &mut other, &mut others);
+    assert_eq!(error, Err(InelasticError::WrongLength { quantity: "states", expected: 3, found: 0 }));
+    // A state that no body has: det Fᵢ = 0.
+    let error = InelasticPoint::with_state(&law, &[0.0; 9], &rest[0])?.advance(&to[0], 0.1, &control);
+    assert!(error.is_err(), "{error:?}");
     Ok(())
 }

@@ -9,6 +9,7 @@ use piola_tensor::internal::rows::Rows;
 use piola_tensor::{MajorSymmetric, PairSymmetric};
 
 use crate::methods::answers;
+use crate::varied::lifted;
 
 /// A solid that changes its shape as one law says and its volume as another (Flory's decomposition).
 ///
@@ -72,10 +73,6 @@ fn spherical<T: Real>(x: T) -> Rows<T> {
     [[x, o, o], [o, x, o], [o, o, x]]
 }
 
-/// A dilatation whose entries carry derivatives.
-#[derive(Clone, Copy)]
-struct Varied<T>(Rows<T>);
-
 impl<T: Real> Deformation<T> for Dilatation<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn gradient_rows(&self) -> Rows<T> {
@@ -97,43 +94,6 @@ impl<T: Real> Deformation<T> for Dilatation<T> {
     fn volume_change(&self) -> T {
         let x = self.elongation;
         x * (T::lit(3.0) + x * (T::lit(3.0) + x))
-    }
-}
-
-/// Each entry of ∇u over another scalar.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn lifted<T: Real, S: Real>(h: Rows<T>, lift: impl Fn(usize, usize, T) -> S) -> Varied<S> {
-    let row = |i: usize| [lift(i, 0, h[i][0]), lift(i, 1, h[i][1]), lift(i, 2, h[i][2])];
-    Varied([row(0), row(1), row(2)])
-}
-
-impl<T: Real> Deformation<T> for Varied<T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn gradient_rows(&self) -> Rows<T> {
-        let mut f = self.0;
-        f[0][0] += T::one();
-        f[1][1] += T::one();
-        f[2][2] += T::one();
-        f
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn displacement_rows(&self) -> Rows<T> {
-        self.0
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn lifted<S: Real>(&self, lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
-        lifted(self.0, lift)
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn jacobian(&self) -> T {
-        self.volume_change() + T::one()
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn volume_change(&self) -> T {
-        let h = self.0;
-        let minor = |i: usize, j: usize| h[i][i] * h[j][j] - h[i][j] * h[j][i];
-        let trace = h[0][0] + h[1][1] + h[2][2];
-        trace + ((minor(0, 1) + minor(1, 2) + minor(0, 2)) + piola_numerics::linear::matrix3::determinant(h))
     }
 }
 

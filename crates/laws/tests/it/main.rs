@@ -1,8 +1,11 @@
 //! The tests of `piola-laws`.
 
+#[cfg(feature = "batch")]
+mod abaqus;
 mod algebra;
 mod alloc;
 mod coupled;
+mod mixed;
 mod plane;
 mod refusals;
 mod rubber;

@@ -97,6 +97,11 @@ fn energies_that_no_elastic_solid_has_are_reported_by_name() {
         unreachable!("S = 2 1 at the reference")
     };
     assert!((stress - 2.0).abs() < 1e-15, "{stress}");
+    // Without a strain nothing would be examined, and nothing found.
+    for strain in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let error = examine(&OfInvariants(Infinite), strain);
+        assert!(matches!(error, Err(LawsError::OutOfBounds { quantity: "strain", .. })), "{error:?}");
+    }
     let error = examine(&OfInvariants(Infinite), 0.3);
     assert!(matches!(error, Err(LawsError::NotFinite { quantity: "W", index: 0, .. })), "{error:?}");
 }
