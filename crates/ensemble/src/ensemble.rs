@@ -3,14 +3,14 @@
 use piola_scene::{Document, SceneFile};
 
 use crate::member::{Member, columns, compute};
-use crate::{EnsembleError, Random, Range};
+use crate::{EnsembleError, Random, ValueRange};
 
 /// The largest number of members.
 pub const MOST_MEMBERS: u64 = 100_000_000;
 
 /// A scene, and what differs between its members.
 ///
-/// Members are all combinations of the [ranges](Range), the last range changing fastest, each combination `repeats` times with
+/// Members are all combinations of the [ranges](ValueRange), the last range changing fastest, each combination `repeats` times with
 /// other [random](Random) values.
 ///
 /// # Example
@@ -37,7 +37,7 @@ pub const MOST_MEMBERS: u64 = 100_000_000;
 #[derive(Debug, Clone)]
 pub struct Ensemble {
     scene: Document,
-    ranges: Vec<Range>,
+    ranges: Vec<ValueRange>,
     random: Vec<Random>,
     repeats: u64,
     seed: u64,
@@ -52,7 +52,7 @@ impl Ensemble {
     /// without random values; [`EnsembleError::Invalid`] when the first member is not a scene.
     pub fn new(
         scene: Document,
-        ranges: Vec<Range>,
+        ranges: Vec<ValueRange>,
         random: Vec<Random>,
         repeats: u64,
         seed: u64,

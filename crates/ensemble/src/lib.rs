@@ -17,4 +17,4 @@ pub use member::Member;
 pub use portion::Portion;
 pub use results::{Results, Statistics};
 pub use run::{Computed, Options, compute, predicted_seconds};
-pub use variation::{Law, Random, Range};
+pub use variation::{Law, Random, ValueRange};

@@ -12,15 +12,15 @@ use crate::EnsembleError;
 ///
 /// # Example
 /// ```
-/// use piola_ensemble::Range;
-/// let angles: Range = "joint.elbow.angle=0:90:4 deg".parse()?;
+/// use piola_ensemble::ValueRange;
+/// let angles: ValueRange = "joint.elbow.angle=0:90:4 deg".parse()?;
 /// assert_eq!((angles.count, angles.setting(3)), (4, "joint.elbow.angle=90.0 deg".to_owned()));
-/// assert!("joint.elbow.angle=0:90".parse::<Range>().is_err());
+/// assert!("joint.elbow.angle=0:90".parse::<ValueRange>().is_err());
 /// # Ok::<(), piola_ensemble::EnsembleError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
-pub struct Range {
+pub struct ValueRange {
     /// The path of the value, as of `--set`.
     pub path: String,
     /// The first value.
@@ -55,7 +55,7 @@ fn setting(path: &str, value: f64, unit: &str) -> String {
     if unit.is_empty() { format!("{path}={value:?}") } else { format!("{path}={value:?} {unit}") }
 }
 
-impl FromStr for Range {
+impl FromStr for ValueRange {
     type Err = EnsembleError;
 
     fn from_str(text: &str) -> Result<Self, EnsembleError> {
@@ -74,7 +74,7 @@ impl FromStr for Range {
     }
 }
 
-impl Range {
+impl ValueRange {
     /// The value of this number.
     #[must_use]
     pub fn value(&self, index: u64) -> f64 {

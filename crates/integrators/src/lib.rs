@@ -19,6 +19,7 @@ mod gauss_legendre_16;
 mod gauss_radau_15;
 mod legendre;
 mod nystrom;
+mod order;
 mod second_order;
 mod sensitivity;
 mod splitting;
@@ -28,7 +29,7 @@ mod verner;
 
 pub use advice::{Advice, AdvisedMethod, Character, advise};
 pub use checkpoint::Checkpoint;
-pub use composition::{Composition, Order};
+pub use composition::Composition;
 pub use dormand_prince::{DormandPrince853, DormandPrincePair};
 pub use error::IntegratorsError;
 pub use estimate::ErrorEstimate;
@@ -39,6 +40,7 @@ pub use gauss_legendre::GaussLegendre;
 pub use gauss_legendre_16::{CollocationStep, GaussLegendre16};
 pub use gauss_radau_15::{GaussRadau15, GaussRadauStep};
 pub use nystrom::{Nystrom, Nystrom86, Nystrom1210, NystromPair, NystromPair86, NystromPair1210, NystromStep};
+pub use order::Order;
 pub use second_order::SecondOrder;
 pub use sensitivity::{
     AdjointSensitivity, ForwardSensitivity, JacobianProduct, Objective, ObjectiveGradient, ParametricField,

@@ -1,6 +1,6 @@
 //! The coefficients of symmetric splittings of q̇ = u(t, p), ṗ = w(t, q).
 
-use crate::Order;
+use crate::order::{Order, substeps_of};
 
 /// A symmetric splitting of separable systems: drifts q ← q + aₖh u(p) and kicks p ← p + bₖh w(q) in turn.
 ///
@@ -253,9 +253,3 @@ const NYSTROM_6_LONG: [f64; 15] = [
     -0.196_411_466_486_455_52,
     0.207_305_069_056_896_72,
 ];
-
-/// A symmetric list whose sum is one, from its first half.
-pub(crate) fn substeps_of(half: &[f64]) -> impl Iterator<Item = f64> + '_ {
-    let middle = 1.0 - 2.0 * half.iter().sum::<f64>();
-    half.iter().copied().chain([middle]).chain(half.iter().rev().copied())
-}

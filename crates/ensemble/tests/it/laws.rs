@@ -1,12 +1,12 @@
 //! Members against closed forms; random values against their laws; what is refused.
 
-use piola_ensemble::{Ensemble, EnsembleError, Portion, Random, Range, Statistics};
+use piola_ensemble::{Ensemble, EnsembleError, Portion, Random, Statistics, ValueRange};
 use piola_scene::Document;
 use piola_testkit::{Tol, assert_close};
 
 use crate::journal::orbit;
 
-fn range(text: &str) -> Range {
+fn range(text: &str) -> ValueRange {
     text.parse().unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -74,7 +74,7 @@ fn statistics_leave_out_what_is_no_number() {
 #[test]
 fn what_cannot_be_varied_is_refused_by_name() {
     for wrong in ["a", "a=1", "a=1:2", "a=1:2:0", "a=1:nan:3", "a=x:2:3", "=1:2:3", "a=-1e308:1e308:3"] {
-        let error = wrong.parse::<Range>().err().map(|error| error.to_string()).unwrap_or_default();
+        let error = wrong.parse::<ValueRange>().err().map(|error| error.to_string()).unwrap_or_default();
         assert!(error.contains("PATH=FROM:TO:COUNT UNIT"), "{wrong}: {error}");
     }
     for wrong in

@@ -9,7 +9,6 @@ use piola_solids::Hyperelastic;
 use piola_tensor::FourthOrder;
 use piola_tensor::internal::rows::{Rows, difference, double_contraction, scaled, sum, transpose};
 
-use super::TwoField;
 use super::resized::Resized;
 use crate::LawsError;
 
@@ -113,41 +112,6 @@ impl<T: Real> ThreeField<T> {
             coupling: FirstPiola(from_rows(scaled(dev(sum(stress, image)), scale * third / volume))),
             cofactor: from_rows(cofactor),
             bulk: (stiffness - trace - trace) * ninth / (volume * volume),
-        }
-    }
-
-    /// The u–p form: θ is eliminated from the linearised equations, its residual included.
-    ///
-    /// ```text
-    /// K − g ⊗ g/h        cof F + g/h        −1/h        g = ∂²Π/∂F∂θ,   h = ∂²Π/∂θ²
-    /// ```
-    /// After a step (δF, δp) the volume changes by `δθ = (δp − g : δF − ∂Π/∂θ)/h`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    #[must_use]
-    pub fn condensed(&self) -> TwoField<T> {
-        let compliance = self.bulk.recip();
-        let coupling = self.coupling.0;
-        let step = self.volume_residual * compliance;
-        let rows = scaled(rows_of(&coupling), compliance);
-        let mut tangent = self.tangent;
-        let (left, right) = (rows.as_flattened(), rows_of(&coupling));
-        let right = right.as_flattened();
-        let mut r = 0;
-        while r < 9 {
-            let mut s = 0;
-            while s < 9 {
-                tangent.0.components[r][s] -= left[r] * right[s];
-                s += 1;
-            }
-            r += 1;
-        }
-        TwoField {
-            energy: self.energy - self.volume_residual * step * T::lit(0.5),
-            first_piola: FirstPiola(self.first_piola.0 - coupling * step),
-            pressure_residual: self.pressure_residual + step,
-            tangent,
-            cofactor: self.cofactor + from_rows(rows),
-            compliance,
         }
     }
 }

@@ -4,7 +4,9 @@ use nalgebra::Matrix3;
 use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::{Deformation, FirstPiola};
 use piola_numerics::Real;
+use piola_numerics::linear::matrix3::{from_rows, rows_of};
 use piola_solids::Hyperelastic;
+use piola_tensor::internal::rows::scaled;
 
 use super::ThreeField;
 use crate::LawsError;
@@ -103,4 +105,41 @@ pub fn two_field(
         volume_change += step.clamp(-0.5 * volume, 0.5 * volume);
     }
     Err(LawsError::NoVolume { mean_stress, volume: best.1, residual: best.0 })
+}
+
+impl<T: Real> ThreeField<T> {
+    /// The u–p form: θ is eliminated from the linearised equations, its residual included.
+    ///
+    /// ```text
+    /// K − g ⊗ g/h        cof F + g/h        −1/h        g = ∂²Π/∂F∂θ,   h = ∂²Π/∂θ²
+    /// ```
+    /// After a step (δF, δp) the volume changes by `δθ = (δp − g : δF − ∂Π/∂θ)/h`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[must_use]
+    pub fn condensed(&self) -> TwoField<T> {
+        let compliance = self.bulk.recip();
+        let coupling = self.coupling.0;
+        let step = self.volume_residual * compliance;
+        let rows = scaled(rows_of(&coupling), compliance);
+        let mut tangent = self.tangent;
+        let (left, right) = (rows.as_flattened(), rows_of(&coupling));
+        let right = right.as_flattened();
+        let mut r = 0;
+        while r < 9 {
+            let mut s = 0;
+            while s < 9 {
+                tangent.0.components[r][s] -= left[r] * right[s];
+                s += 1;
+            }
+            r += 1;
+        }
+        TwoField {
+            energy: self.energy - self.volume_residual * step * T::lit(0.5),
+            first_piola: FirstPiola(self.first_piola.0 - coupling * step),
+            pressure_residual: self.pressure_residual + step,
+            tangent,
+            cofactor: self.cofactor + from_rows(rows),
+            compliance,
+        }
+    }
 }

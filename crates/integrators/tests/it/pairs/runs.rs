@@ -450,14 +450,14 @@ fn run_with_own_magnitudes_continues_to_the_last_bit() {
             if step.number() == 9 {
                 checkpoint = Some(step.checkpoint());
             }
-            core::ops::ControlFlow::Continue(())
+            ControlFlow::Continue(())
         })
         .unwrap();
     let mut continued = start;
     let checkpoint = checkpoint.expect("more than nine steps");
     let mut method = Nystrom86::new(Tolerance::relative(1e-9).unwrap());
     method
-        .resume(&mut LargeAndSmall::<true>, &checkpoint, &mut continued, 20.0, |_| core::ops::ControlFlow::Continue(()))
+        .resume(&mut LargeAndSmall::<true>, &checkpoint, &mut continued, 20.0, |_| ControlFlow::Continue(()))
         .unwrap();
     assert_eq!(whole, continued);
 }
