@@ -39,7 +39,8 @@ pub(crate) enum Command {
     /// Solve a flow of any fluid: its drive or an answer in, all answers with their error bounds, the profile and a figure out.
     Flow(SolveArguments),
     /// Load a specimen of any solid along a path of stretches or loads: all components of strain and stress and a figure out.
-    Specimen(SpecimenArguments),
+    /// Needs the feature `specimens` of the program.
+    Specimen(crate::specimens::SpecimenArguments),
     /// Register two images: find the map that deforms one into the other. Needs the feature `register` of the program.
     Register(crate::register::RegisterArguments),
     /// Print the JSON Schema of scenes, for editors.
@@ -284,40 +285,6 @@ pub(crate) struct SolveArguments {
     #[arg(long, value_name = "ANGLE")]
     pub(crate) inclination: Option<String>,
     /// Folder of the results instead of out/flow-FLOW.
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Print JSON to standard output.
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct SpecimenArguments {
-    /// The test: uniaxial, equibiaxial, biaxial, planar, simple-shear, volumetric, mixed or torsion.
-    pub(crate) test: String,
-    /// The solid, as `yeoh:c10=0.3 MPa,c20=-1 kPa,c30=50 Pa`, a JSON file of a solid, or the summary.json of a fit, with #NAME for
-    /// one of its laws.
-    #[arg(long, value_name = "SOLID")]
-    pub(crate) solid: String,
-    /// What is changed, from one value to another, as `stretch=1..3`, `stress='0..2 MPa'`, `shear=0..1` or `F12=0..0.5`.
-    #[arg(long, value_name = "NAME=FROM..TO", allow_hyphen_values = true)]
-    pub(crate) path: String,
-    /// What else is prescribed, as `second_stretch=1.2` or `P22='10 kPa'`; several times for several.
-    #[arg(long = "with", value_name = "NAME=VALUE", allow_hyphen_values = true)]
-    pub(crate) held: Vec<String>,
-    /// Bulk modulus of a solid that would keep its volume otherwise.
-    #[arg(long, value_name = "PRESSURE")]
-    pub(crate) bulk_modulus: Option<String>,
-    /// Radius of the rod, for torsion.
-    #[arg(long, value_name = "LENGTH")]
-    pub(crate) radius: Option<String>,
-    /// Inner radius of a tube, for torsion.
-    #[arg(long, value_name = "LENGTH")]
-    pub(crate) inner_radius: Option<String>,
-    /// Points of the path, from 2 to 100000.
-    #[arg(long, value_name = "N", default_value_t = 101)]
-    pub(crate) points: u32,
-    /// Folder of the results instead of out/specimen-TEST.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Print JSON to standard output.

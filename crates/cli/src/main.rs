@@ -17,6 +17,10 @@ mod register;
 #[path = "register/absent.rs"]
 mod register;
 mod report;
+#[cfg(feature = "specimens")]
+mod specimens;
+#[cfg(not(feature = "specimens"))]
+#[path = "specimens/absent.rs"]
 mod specimens;
 mod sweeps;
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use piola_charts::ChartsError;
 use piola_fit::FitError;
+#[cfg(feature = "specimens")]
 use piola_solutions::SolutionsError;
 use piola_specimens::SpecimensError;
 use piola_viscometry::ViscometryError;
@@ -106,6 +107,7 @@ pub enum MeasuredError {
     #[error(transparent)]
     Specimens(#[from] SpecimensError),
     /// A twisted rod is refused.
+    #[cfg(feature = "specimens")]
     #[error(transparent)]
     Solutions(#[from] SolutionsError),
     /// The results cannot be written.

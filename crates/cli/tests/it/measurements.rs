@@ -99,6 +99,15 @@ fn a_card_of_ls_dyna_needs_a_density() {
     );
 }
 
+#[cfg(not(feature = "specimens"))]
+#[test]
+fn a_program_without_specimens_says_how_to_get_them() {
+    let (code, _, told) = Folder::new("absent").piola(&["specimen", "uniaxial", "--solid", "x"]);
+    assert_eq!(code, Some(2));
+    assert!(told.contains("--features specimens"), "{told}");
+}
+
+#[cfg(feature = "specimens")]
 #[test]
 fn a_specimen_is_loaded_along_a_path_and_a_path_that_ends_is_told() {
     let folder = Folder::new("specimen");

@@ -25,15 +25,19 @@
 //!
 //! Sides that are not named are free of traction, shears that are not named are zero; a planar specimen is held along 2.
 
+#[cfg(feature = "specimens")]
 mod controls;
 mod flow;
 mod fluid;
 mod output;
 mod solid;
+#[cfg(feature = "specimens")]
 mod specimen;
+#[cfg(feature = "specimens")]
 mod specimen_output;
 
 pub use flow::{Answered, FlowRequest, ProfilePoint, SolvedFlow, solve};
 pub use fluid::fluid;
 pub use solid::solid;
+#[cfg(feature = "specimens")]
 pub use specimen::{LoadedSpecimen, SpecimenRequest, specimen};

@@ -9,4 +9,5 @@ mod layouts;
 mod newtonian;
 mod rheology;
 mod sides;
+#[cfg(feature = "specimens")]
 mod specimen;

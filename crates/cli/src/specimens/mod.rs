@@ -1,15 +1,49 @@
 //! The command `specimen`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
 use piola_charts::Folder;
 use piola_measured::MeasuredError;
 use piola_measured::forward::{self, SpecimenRequest};
 
 use crate::Exit;
-use crate::arguments::SpecimenArguments;
 use crate::commands::{note, refused};
 use crate::flows::show;
+
+#[derive(Debug, Args)]
+pub(crate) struct SpecimenArguments {
+    /// The test: uniaxial, equibiaxial, biaxial, planar, simple-shear, volumetric, mixed or torsion.
+    pub(crate) test: String,
+    /// The solid, as `yeoh:c10=0.3 MPa,c20=-1 kPa,c30=50 Pa`, a JSON file of a solid, or the summary.json of a fit, with #NAME for
+    /// one of its laws.
+    #[arg(long, value_name = "SOLID")]
+    pub(crate) solid: String,
+    /// What is changed, from one value to another, as `stretch=1..3`, `stress='0..2 MPa'`, `shear=0..1` or `F12=0..0.5`.
+    #[arg(long, value_name = "NAME=FROM..TO", allow_hyphen_values = true)]
+    pub(crate) path: String,
+    /// What else is prescribed, as `second_stretch=1.2` or `P22='10 kPa'`; several times for several.
+    #[arg(long = "with", value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    pub(crate) held: Vec<String>,
+    /// Bulk modulus of a solid that would keep its volume otherwise.
+    #[arg(long, value_name = "PRESSURE")]
+    pub(crate) bulk_modulus: Option<String>,
+    /// Radius of the rod, for torsion.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) radius: Option<String>,
+    /// Inner radius of a tube, for torsion.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) inner_radius: Option<String>,
+    /// Points of the path, from 2 to 100000.
+    #[arg(long, value_name = "N", default_value_t = 101)]
+    pub(crate) points: u32,
+    /// Folder of the results instead of out/specimen-TEST.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print JSON to standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 pub(crate) fn load(arguments: &SpecimenArguments) -> Exit {
     let prepared = forward::solid(&arguments.solid, arguments.bulk_modulus.as_deref()).and_then(|solid| {
