@@ -23,7 +23,7 @@ pub struct Row {
     pub method: &'static str,
     /// Of each case the tolerance, the true error relative to its block, and estimate/true.
     pub cases: Vec<[f64; 3]>,
-    /// Errors below this are those of rounding: see [`settle`].
+    /// Errors below this are those of rounding: see `settle`.
     pub floor: f64,
 }
 
