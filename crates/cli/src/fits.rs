@@ -117,7 +117,7 @@ fn sides_options(arguments: &FitArguments) -> Result<SidesOptions, MeasuredError
     Ok(options)
 }
 
-/// What is asked of material cards; nothing without a bulk modulus.
+/// The bulk modulus and the density of the material cards; none when no bulk modulus is given.
 fn bulk(arguments: &FitArguments) -> Result<Option<fitting::Bulk>, MeasuredError> {
     let Some(modulus) = arguments.bulk_modulus else {
         return match arguments.cards.first() {

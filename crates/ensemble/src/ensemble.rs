@@ -83,7 +83,7 @@ impl Ensemble {
         self.ranges.iter().fold(self.repeats, |product, range| product * range.count)
     }
 
-    /// What is varied, with units, as `joint.elbow.angle (deg)`.
+    /// The names of the varied values, with their units, as `joint.elbow.angle (deg)`.
     #[must_use]
     pub fn varied(&self) -> Vec<String> {
         let named =
@@ -92,13 +92,13 @@ impl Ensemble {
         ranges.chain(self.random.iter().map(|random| named(&random.path, &random.unit))).collect()
     }
 
-    /// The quantities that are kept of a member.
+    /// The names of the quantities that a member keeps.
     #[must_use]
     pub fn columns(&self) -> &[String] {
         &self.columns
     }
 
-    /// The values that are varied, of a member.
+    /// The varied values of a member, in the order of [`varied`](Self::varied).
     #[must_use]
     pub fn settings(&self, member: u64) -> Vec<f64> {
         let indices = self.indices(member);
@@ -121,7 +121,7 @@ impl Ensemble {
     /// The scene of a member.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// [`EnsembleError::Scene`] with the mistakes of the scene.
     pub fn scene(&self, member: u64) -> Result<SceneFile, EnsembleError> {
         let mut document = self.scene.clone();
         for (range, index) in self.ranges.iter().zip(self.indices(member)) {
@@ -148,7 +148,7 @@ impl Ensemble {
         }
     }
 
-    /// All that tells this ensemble from another, as a text of one line.
+    /// The scene, the variations, the seed and the version as a text of one line: equal ensembles have equal texts.
     #[must_use]
     pub fn identity(&self) -> String {
         let texts: Vec<&str> = self.scene.sources().iter().map(|source| source.text.as_str()).collect();

@@ -16,10 +16,10 @@ use serde_json::Value;
 pub struct Member {
     /// Its number, from 0.
     pub member: u64,
-    /// Why it has no result.
+    /// Why the member failed.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub failure: Option<String>,
-    /// Its numbers, one for each [column](crate::Ensemble::columns); not a number where there is none.
+    /// The values of the [columns](crate::Ensemble::columns), in SI units; NaN for a quantity that the member lacks.
     #[serde(with = "numbers")]
     pub values: Vec<f64>,
 }
@@ -32,7 +32,7 @@ impl Member {
     }
 }
 
-/// Numbers that are none are `null` in JSON.
+/// JSON has no NaN: such numbers are written as `null`.
 mod numbers {
     use serde::{Deserialize as _, Deserializer, Serialize as _, Serializer};
 
@@ -47,7 +47,7 @@ mod numbers {
     }
 }
 
-/// Names of the numbers that are kept of a scene. A study is run once to see what it finds.
+/// The names of a scene's columns. A study is run once, because only its results name them.
 pub(crate) fn columns(scene: &SceneFile) -> Vec<String> {
     match scene {
         SceneFile::Motion(scene) => {

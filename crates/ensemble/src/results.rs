@@ -56,7 +56,7 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Of numbers, those that are none left out; `None` when nothing is left.
+    /// The statistics of the finite values; `None` when there are none.
     #[must_use]
     pub fn of(values: &[f64]) -> Option<Self> {
         let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
@@ -108,13 +108,13 @@ impl<'e> Results<'e> {
         Some(self.members.iter().map(|member| member.values[index]).collect())
     }
 
-    /// Members without a result.
+    /// The number of failed members.
     #[must_use]
     pub fn failures(&self) -> usize {
         self.members.iter().filter(|member| member.failure.is_some()).count()
     }
 
-    /// A row for each member: number, what is varied, the quantities, why there are none.
+    /// The table of members as CSV. A row has the number of the member, the varied values, the quantities, and why the member failed.
     #[must_use]
     pub fn table(&self) -> String {
         let quoted = |text: &String| {

@@ -37,17 +37,8 @@ const RANGE: &str = "PATH=FROM:TO:COUNT UNIT, as 'joint.elbow.angle=0:90:10 deg'
 const RANDOM: &str =
     "PATH=normal(MEAN, DEVIATION) UNIT or PATH=uniform(FROM, TO) UNIT, as 'body.moon.mass=normal(7.3e22, 1e20) kg'";
 
-/// A number, and the text after it.
-fn leading_number(text: &str) -> Option<(f64, &str)> {
-    let text = text.trim();
-    let is_number = |end: usize| text.is_char_boundary(end) && text[..end].trim_end().parse::<f64>().is_ok();
-    let end = (1..=text.len()).rev().find(|&end| is_number(end))?;
-    let number: f64 = text[..end].trim_end().parse().ok()?;
-    number.is_finite().then(|| (number, text[end..].trim()))
-}
-
 fn finite(text: &str) -> Option<f64> {
-    leading_number(text).filter(|(_, rest)| rest.is_empty()).map(|(number, _)| number)
+    text.trim().parse().ok().filter(|x: &f64| x.is_finite())
 }
 
 /// A setting of the scene.

@@ -19,10 +19,10 @@ pub(crate) struct SpecimenArguments {
     /// one of its laws.
     #[arg(long, value_name = "SOLID")]
     pub(crate) solid: String,
-    /// What is changed, from one value to another, as `stretch=1..3`, `stress='0..2 MPa'`, `shear=0..1` or `F12=0..0.5`.
+    /// The path: a quantity with its first and last value, as `stretch=1..3`, `stress='0..2 MPa'`, `shear=0..1` or `F12=0..0.5`.
     #[arg(long, value_name = "NAME=FROM..TO", allow_hyphen_values = true)]
     pub(crate) path: String,
-    /// What else is prescribed, as `second_stretch=1.2` or `P22='10 kPa'`; several times for several.
+    /// Another prescribed quantity with its value, as `second_stretch=1.2` or `P22='10 kPa'`; several times for several.
     #[arg(long = "with", value_name = "NAME=VALUE", allow_hyphen_values = true)]
     pub(crate) held: Vec<String>,
     /// Bulk modulus of a solid that would keep its volume otherwise.

@@ -1,4 +1,4 @@
-//! The command `sweep`: killed and continued, in parts, and what is refused.
+//! Tests of the command `sweep`: a run that is killed and continued, runs in parts, refused arguments.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

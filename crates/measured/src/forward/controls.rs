@@ -1,10 +1,10 @@
 //! What a homogeneous test prescribes: names of components, their units and their controls.
 
-use piola_document::units::{Dimension, Unit};
+use piola_document::units::Dimension;
 use piola_specimens::homogeneous::{Control, Controls};
 
+use super::quantity::{parts, value};
 use crate::MeasuredError;
-use crate::sheet::spelled;
 
 /// A homogeneous test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -192,13 +192,6 @@ impl Prescribed {
     }
 }
 
-/// A number with the unit of a dimension; without a unit where there is none.
-pub(super) fn value(text: &str, dimension: Dimension) -> Option<f64> {
-    let (number, unit) = parts(text)?;
-    let unit = if unit.is_empty() { Unit::ONE } else { spelled(unit)? };
-    (unit.dimension == dimension).then(|| unit.to_si(number)).filter(|x| x.is_finite())
-}
-
 /// Two numbers; the unit of the last is that of the first too, unless it has its own.
 pub(super) fn range(text: &str, dimension: Dimension) -> Option<[f64; 2]> {
     let (from, to) = text.split_once("..")?;
@@ -209,14 +202,6 @@ pub(super) fn range(text: &str, dimension: Dimension) -> Option<[f64; 2]> {
         _ => value(from, dimension)?,
     };
     Some([first, last])
-}
-
-/// A number, and the text after it.
-fn parts(text: &str) -> Option<(f64, &str)> {
-    let text = text.trim();
-    let is_number = |end: usize| text.is_char_boundary(end) && text[..end].trim_end().parse::<f64>().is_ok();
-    let end = (1..=text.len()).rev().find(|&end| is_number(end))?;
-    Some((text[..end].trim_end().parse().ok()?, text[end..].trim()))
 }
 
 /// The controls at a value of the path, with all other conditions.

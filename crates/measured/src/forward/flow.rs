@@ -1,13 +1,13 @@
 //! A flow with its answers and its profile.
 
-use piola_document::units::{Dimension, Quantity};
+use piola_document::units::Dimension;
 use piola_fluids::{AnyFluid, ViscometricFluid as _};
 use piola_viscometry::{
     Annulus, Channel, ConeAndPlate, Couette, Estimate, FallingFilm, ParallelPlates, Poiseuille, ViscometryError,
 };
 
+use super::quantity::value;
 use crate::MeasuredError;
-use crate::sheet::spelled;
 
 /// g, m/s².
 const GRAVITY: f64 = 9.806_65;
@@ -91,21 +91,11 @@ pub struct SolvedFlow {
 struct Reader<'r>(&'r FlowRequest);
 
 impl Reader<'_> {
-    fn quantity(text: &str, dimension: Dimension) -> Option<f64> {
-        let text = text.trim();
-        let parsed = text.parse::<Quantity>().ok().filter(|quantity| quantity.dimension() == Some(dimension));
-        parsed.and_then(|quantity| quantity.to_si().ok()).or_else(|| {
-            let end = text.find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'e')))?;
-            let unit = spelled(&text[end..]).filter(|unit| unit.dimension == dimension)?;
-            Some(unit.to_si(text[..end].parse().ok()?))
-        })
-    }
-
     fn size(&self, name: &str, dimension: Dimension) -> Result<f64, MeasuredError> {
         let Some((_, text)) = self.0.sizes.iter().find(|(other, _)| other == name) else {
             return Err(MeasuredError::MissingSize { name: name.to_owned() });
         };
-        Self::quantity(text, dimension).ok_or_else(|| MeasuredError::Argument {
+        value(text, dimension).ok_or_else(|| MeasuredError::Argument {
             argument: format!("{name} = {text}"),
             valid: "a number with a unit of this size, as 2 mm, 2 deg or 1000 kg/m^3",
         })
@@ -125,7 +115,7 @@ impl Reader<'_> {
             name if name == answer.0 => (false, answer.1),
             _ => return Err(wrong()),
         };
-        Ok((is_drive, Self::quantity(text, dimension).ok_or_else(wrong)?))
+        Ok((is_drive, value(text, dimension).ok_or_else(wrong)?))
     }
 
     fn allow(&self, names: &[&str]) -> Result<(), MeasuredError> {

@@ -30,6 +30,7 @@ mod controls;
 mod flow;
 mod fluid;
 mod output;
+mod quantity;
 mod solid;
 #[cfg(feature = "specimens")]
 mod specimen;

@@ -10,7 +10,8 @@ use piola_solids::{AnySolid, Hyperelastic as _};
 use piola_solutions::loads::{Ends, Torsion, Tube};
 use piola_specimens::homogeneous::{HomogeneousState, equilibrium};
 
-use super::controls::{Prescribed, Test, controls, range, value};
+use super::controls::{Prescribed, Test, controls, range};
+use super::quantity::value;
 use crate::MeasuredError;
 
 /// The least and the greatest number of points of a path.
@@ -18,7 +19,7 @@ const POINTS: core::ops::RangeInclusive<u32> = 2..=100_000;
 /// Radians per metre.
 const TWIST: Dimension = Dimension { length: -1, angle: 1, ..Dimension::NONE };
 
-/// What to compute.
+/// A test of a solid, its path and its conditions.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct SpecimenRequest {
@@ -26,9 +27,9 @@ pub struct SpecimenRequest {
     pub test: String,
     /// The solid.
     pub solid: AnyRubber,
-    /// What is changed, from one value to another, as `("stretch", "1..3")`.
+    /// The path: a quantity with its first and last value, as `("stretch", "1..3")`.
     pub path: (String, String),
-    /// What else is prescribed, as `("P22", "10 kPa")`.
+    /// Other prescribed quantities with their values, as `("P22", "10 kPa")`.
     pub held: Vec<(String, String)>,
     /// Sizes of a twisted rod, as `("radius", "5 mm")`.
     pub sizes: Vec<(String, String)>,
