@@ -299,9 +299,9 @@ def measure(problem, ours, out):
                         record(each["method"], each["parameter"], each["error"], each["seconds"], each["evaluations"], each["peer"])
         for name, parameters, run in peers:
             for parameter in parameters:
-                if hasattr(run, "prepare"):
-                    run.prepare(parameter)
                 try:
+                    if hasattr(run, "prepare"):
+                        run.prepare(parameter)
                     seconds, state, evaluations = timed(lambda: run(parameter))
                 except Exception as problem_of_peer:
                     print(f"  left out: {name} with {parameter:g}: {problem_of_peer}", flush=True)

@@ -59,7 +59,13 @@ fn row<E: Equations<D>, const D: usize>(
         };
         let Ok(estimate) = run(&mut state, tolerance) else { continue };
         for block in [0..E::POSITIONS, E::POSITIONS..D] {
-            let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0_f64, |largest, x| largest.max(x.abs()));
+            // What is no number is the largest of all, and no ratio of it counts.
+            let largest = |x: &mut dyn Iterator<Item = f64>| {
+                x.fold(
+                    0.0_f64,
+                    |largest, x| if x.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(x.abs()) },
+                )
+            };
             let size = largest(&mut problem.reference[block.clone()].iter().copied());
             let differences = state.values[block.clone()].iter().zip(&problem.reference[block.clone()]);
             let error = largest(&mut differences.map(|(a, b)| a - b));

@@ -136,7 +136,7 @@ pub fn solid_from_fit(
     let given = || FfiError::UnknownChoice {
         choice: "law of this fit",
         given: name.to_owned(),
-        valid: "a law of piola_solids: this one is of piola_laws".to_owned(),
+        valid: "neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, polynomial:n, ogden:n".to_owned(),
     };
     law.solid().cloned().ok_or_else(given)
 }

@@ -13,6 +13,12 @@ pub enum FitError {
         /// The test.
         test: String,
     },
+    /// All rows of a test are at rest, where every law has the same answers.
+    #[error("all rows of the test `{test}` are at rest: they tell nothing of the law")]
+    NothingTold {
+        /// The test.
+        test: String,
+    },
     /// Two tests have the same name.
     #[error("two tests are called `{test}`")]
     TestTwice {
@@ -95,10 +101,18 @@ pub enum FitError {
         name: String,
     },
     /// A law has no answer to a loading.
-    #[error("{model} has no answer to the loading `{loading}`; it has to uniaxial, transverse, equibiaxial and planar")]
+    #[error("{model} cannot be fitted to {loading} tests; it can to uniaxial, transverse, equibiaxial and planar ones")]
     NoSuchLoading {
         /// The law.
         model: String,
+        /// The loading.
+        loading: &'static str,
+    },
+    /// Lateral stretches are given of a test that has none to measure.
+    #[error("the test `{test}` has lateral stretches, which {loading} tests do not tell")]
+    NoLateral {
+        /// The test.
+        test: String,
         /// The loading.
         loading: &'static str,
     },

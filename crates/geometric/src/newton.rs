@@ -10,9 +10,7 @@ use piola_numerics::{NumericsError, Real};
 const MOST_ITERATIONS: usize = 100;
 /// The part of the rounding error of an increment that may be left out of it.
 const UNROUNDED: f64 = 1e-4;
-/// Iterations after which corrections within rounding are not waited for to fall further.
-const MOST_WITHIN_ROUNDING: usize = MOST_ITERATIONS;
-/// Corrections, in units of the last place, that are within rounding.
+/// Corrections, in units of the last place, that are within rounding: they may be all that the last iteration leaves.
 const ROUNDING: f64 = 64.0;
 /// Corrections that fall more slowly than this ask for a new matrix.
 const SLOW: f64 = 0.2;
@@ -122,7 +120,7 @@ impl<T: Real> Newton<T> {
             }
             let mut progress;
             (change, progress) = self.correct(equations, x, previous)?;
-            if MOST_WITHIN_ROUNDING <= iteration && change < ROUNDING * unit_in_last_place::<T>() {
+            if iteration == MOST_ITERATIONS && change < ROUNDING * unit_in_last_place::<T>() {
                 progress = Progress::Converged;
             }
             match progress {

@@ -67,6 +67,13 @@ impl<A, B> ReeseGovindjee<A, B> {
         Ok(Self { bulk_fluidity: bulk_viscosity.recip(), ..self })
     }
 
+    /// With 1/ζ, 1/(Pa s), as it was written; 0 for no flow of volumes.
+    #[cfg(feature = "serde")]
+    pub(crate) fn with_bulk_fluidity(self, bulk_fluidity: f64) -> Result<Self, InelasticError> {
+        check_bound(LAW, "bulk_fluidity", bulk_fluidity, "0 ≤ 1/ζ", 0.0 <= bulk_fluidity)?;
+        Ok(Self { bulk_fluidity, ..self })
+    }
+
     /// η, Pa s.
     #[must_use]
     pub const fn viscosity(&self) -> f64 {

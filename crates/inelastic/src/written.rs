@@ -1,12 +1,10 @@
 //! Laws read by serde go through the constructors that check their parameters.
 
-use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::from_rows;
 use piola_solids::Hyperelastic;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
-use crate::error::check_bound;
 use crate::{
     BergstromBoyce, DrivenGrowth, Grown, Hardening, InSeries, InelasticError, Kinematic, Mullins, PowerFlow,
     ReeseGovindjee, Viscoplastic,
@@ -35,21 +33,14 @@ validated! {
         Self { rate, stress, stress_exponent, stretch_exponent, perturbation }.checked();
     BergstromBoyce [A, B] { equilibrium: A, overstress: B, flow: PowerFlow } Self::new(equilibrium, overstress, flow);
     ReeseGovindjee [A, B] { equilibrium: A, overstress: B, viscosity: f64, bulk_fluidity: f64 }
-        Self::new(equilibrium, overstress, viscosity).and_then(|law| {
-            check_bound("Reese and Govindjee", "bulk_fluidity", bulk_fluidity, "0 ≤ 1/ζ", 0.0 <= bulk_fluidity)?;
-            if 0.0 < bulk_fluidity { law.with_bulk_viscosity(bulk_fluidity.recip()) } else { Ok(law) }
-        });
+        Self::new(equilibrium, overstress, viscosity).and_then(|law| law.with_bulk_fluidity(bulk_fluidity));
     InSeries [A, B] { first: A, second: B, viscosity: f64 } Self::new(first, second, viscosity);
     Mullins [L] { law: L, softening: f64, energy: f64, share: f64 } Self::new(law, softening, energy, share);
     DrivenGrowth [L] { law: L, rate: f64, bounds: [f64; 2], exponent: f64 } Self::new(law, rate, bounds, exponent);
-    Grown [L] { law: L, growth: [[f64; 3]; 3] } Self::new(law, &matrix(growth));
+    Grown [L] { law: L, growth: [[f64; 3]; 3] } Self::new(law, &from_rows(growth));
     Hardening [] { yield_stress: f64, linear: f64, saturation: f64, saturation_exponent: f64 }
         Self { yield_stress, linear, saturation, saturation_exponent }.checked();
     Kinematic [L, K] { elastic: L, back: K, hardening: Hardening, recovery: f64, viscosity: f64 }
         Self::new(elastic, back, hardening, recovery, viscosity);
     Viscoplastic [L] { elastic: L, hardening: Hardening, viscosity: f64 } Self::new(elastic, hardening, viscosity);
-}
-
-fn matrix(rows: [[f64; 3]; 3]) -> Matrix3<f64> {
-    from_rows(rows)
 }

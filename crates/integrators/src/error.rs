@@ -148,8 +148,8 @@ pub enum IntegratorsError<E = Infallible> {
     },
     /// A constrained system whose differentiation index is above two.
     #[error(
-        "component {component} has the differentiation index {index} at t = {t}; it must be 1 or 2: differentiate the constraints \
-         once, or give constraints on velocities"
+        "component {component} has the differentiation index {index} at t = {t}; it must be 1 or 2: differentiate the \
+         constraints until it is, or give constraints on velocities"
     )]
     IndexTooHigh {
         /// The component, counted from 0: a reaction.

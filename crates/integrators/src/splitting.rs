@@ -20,7 +20,7 @@ use crate::order::{Order, substeps_of};
 /// other systems their order is lower, and nothing tells.
 ///
 /// # Accuracy
-/// The coefficients are right to the last bit. Evaluated with 31 digits at the stored doubles, the order conditions are obeyed to
+/// The coefficients are given as doubles. Evaluated with 31 digits at them, the order conditions are obeyed to
 /// 2e-15 (tests `compositions_of_order_ten_obey_all_conditions`, `nystrom_splittings_obey_all_conditions`).
 ///
 /// # Example
@@ -35,8 +35,8 @@ use crate::order::{Order, substeps_of};
 ///
 /// # References
 /// Order 10: M. Sofroniou & G. Spaletta, Optim. Methods Softw. 20 (2005) 597. Nyström splittings, there called `SRKN₆ᵇ`, `SRKN₁₁ᵇ` and
-/// `SRKN₁₄ᵃ`: S. Blanes & P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313, whose fifteen digits Newton's method on the order
-/// conditions has made full (`testdata/scripts/nystrom_splittings.py`).
+/// `SRKN₁₄ᵃ`: S. Blanes & P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313, published with fifteen digits; Newton's method
+/// on the order conditions refined them to full double precision (`testdata/scripts/nystrom_splittings.py`).
 #[doc(alias("Blanes", "Moan", "SRKN", "Sofroniou", "Spaletta", "Runge-Kutta-Nyström"))]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

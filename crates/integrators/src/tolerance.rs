@@ -15,7 +15,7 @@ use crate::IntegratorsError;
 /// Methods raise a relative part that rounding alone exceeds, because steps would grow short and nothing would be won. The
 /// least is two units in the last place for explicit pairs, 4.4e-16 in `f64` and 2.4e-7 in `f32`; 1e-14 for `RadauIia`;
 /// 1e-17 for [`GaussLegendre16`](crate::GaussLegendre16), and what [`with_epsilon`](crate::GaussRadau15::with_epsilon) says
-/// for [`GaussRadau15`](crate::GaussRadau15). A relative part of zero is raised, too.
+/// for [`GaussRadau15`](crate::GaussRadau15). A relative part of zero is raised too, but by `RadauIia`.
 ///
 /// # Example
 /// ```

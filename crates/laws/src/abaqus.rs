@@ -232,8 +232,10 @@ macro_rules! quantities {
 
             fn check<T: Real, D: Deformation<T>>(&self, deformation: &D) -> Result<(), Refusal> {
                 self.law.check(deformation).map_err(Refusal::new)?;
-                let finite = self.law.cauchy(deformation).0.components[0].is_finite().all();
-                if finite { Ok(()) } else { Err(Refusal::new(SolidsError::Overflow { answer: "stress" })) }
+                let finite = |components: [T; 6]| components[0].is_finite().all();
+                let stress = finite(self.law.cauchy(deformation).0.components);
+                let tangent = $k == 6 || self.law.truesdell_tangent(deformation).0.components[0].is_finite().all();
+                if stress && tangent { Ok(()) } else { Err(Refusal::new(SolidsError::Overflow { answer: "stress" })) }
             }
         }
     )* };

@@ -75,7 +75,7 @@ pub enum MeasuredError {
     /// A finite-element program has no such law.
     #[error(
         "{program} has no card of {law}; laws with cards are neo-hookean, mooney-rivlin, yeoh, polynomial:n and ogden:n, and in \
-         Abaqus van-der-waals, in Ansys extended-tube"
+         Abaqus van-der-waals, in Ansys extended-tube, in Abaqus and CalculiX hyperfoam:n"
     )]
     NoCard {
         /// The law.

@@ -50,7 +50,7 @@ pub struct SpectrumFit {
     pub modulus_intervals: Vec<Option<[f64; 2]>>,
     /// 95 % interval of each τᵢ, s, linear in ln τᵢ.
     pub relaxation_time_intervals: Vec<Option<[f64; 2]>>,
-    /// 95 % interval of Gₑ, Pa; `None` where none is fitted too.
+    /// 95 % interval of Gₑ, Pa; `None` if no Gₑ is fitted or the data do not determine it.
     pub equilibrium_interval: Option<[f64; 2]>,
     /// √(S/m): the relative error, root mean square.
     pub relative_error: f64,
@@ -200,11 +200,13 @@ fn starts(data: &SpectrumData<'_>, modes: usize, equilibrium: bool, fewer: Optio
 /// | `options` | the number of modes, or the most that are tried; whether there is an equilibrium modulus |
 ///
 /// Where the number of modes is not given, numbers are tried upwards, until two in a row do not lower `AICc`.
-/// The 95 % intervals are those of independent errors, widened where neighbouring residuals are correlated.
+/// The 95 % intervals are those of independent errors, widened where neighbouring residuals are correlated; for that the data
+/// stand in the order of ω or t.
 ///
 /// # Errors
 /// [`SpectraError::NotFinite`], [`SpectraError::WrongLength`], [`SpectraError::OutOfBounds`] of the data or of no mode;
-/// [`SpectraError::TooFewNumbers`]: n modes need at least 2 n + 3 numbers, one more with an equilibrium modulus.
+/// [`SpectraError::TooFewNumbers`]: n modes need at least 2 n + 3 numbers, one more with an equilibrium modulus;
+/// [`SpectraError::NoFit`] where the residuals of all starts are not finite.
 ///
 /// # Accuracy
 /// The search ends at a minimum of S to about 1e-7 of ln gᵢ and ln τᵢ where the data determine them. S may have several

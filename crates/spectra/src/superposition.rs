@@ -6,7 +6,7 @@
 
 use nalgebra::DMatrix;
 use piola_fit::internal::{Misfit, Range, minimise};
-use piola_fit::{Covariance, student};
+use piola_fit::{Covariance, Outcome, student};
 use piola_fluids::{Arrhenius, TemperatureShift, WilliamsLandelFerry};
 
 use crate::SpectraError;
@@ -24,17 +24,18 @@ pub struct IsothermalCurve<'c> {
 /// Horizontal shifts ln aₜ that lay each curve over its neighbour, from curves in the order of their temperatures.
 ///
 /// The shift of two neighbours minimises the mean square of ln y − ln yₙ over the points of either that the other one
-/// reaches, a third of the shorter curve at least, with ln yₙ linear between the points of the neighbour in ln ω.
-/// `reference` is the curve whose shift is zero.
+/// reaches, with ln yₙ linear between the points of the neighbour in ln ω.
+/// At least four points must overlap, and a third of the number of points of the shorter curve. `reference` is the curve whose
+/// shift is zero.
 ///
 /// # Errors
 /// [`SpectraError::NotFinite`], [`SpectraError::WrongLength`]; [`SpectraError::OutOfBounds`] unless all numbers are positive,
 /// frequencies rise, each curve has three points and `reference` is a curve;
-/// [`SpectraError::NoOverlap`] where the moduli of neighbours have no range in common.
+/// [`SpectraError::NoOverlap`] where the moduli of neighbours have no range in common, or too few points overlap at any shift.
 ///
 /// # Accuracy
-/// For exact power laws and curves that are smooth between their points, the error of the interpolation over the slope of the
-/// curve. Plateaus do not determine a shift.
+/// The error of a shift is the interpolation error of ln y over the slope of the curve. It vanishes for exact power laws.
+/// Plateaus do not determine a shift.
 ///
 /// # Example
 /// ```
@@ -140,6 +141,8 @@ pub struct ShiftFit<L, const N: usize> {
     pub intervals: [Option<[f64; 2]>; N],
     /// √(S/m): the error of ln aₜ, root mean square.
     pub error: f64,
+    /// How the search ended.
+    pub outcome: Outcome,
 }
 
 /// Residuals of ln aₜ over positive constants; a law is made from them.
@@ -210,14 +213,14 @@ fn fit<L: TemperatureShift, const N: usize>(
         let half = factor? * covariance.matrix[place][place].sqrt();
         Some([constants[k] * (-half).exp(), constants[k] * half.exp()])
     });
-    Ok(ShiftFit { law: law(*constants).ok_or(none)?, intervals, error: (squares / count).sqrt() })
+    Ok(ShiftFit { law: law(*constants).ok_or(none)?, intervals, error: (squares / count).sqrt(), outcome: end.outcome })
 }
 
 /// The activation energy of Arrhenius from shifts ln aₜ at temperatures, K, by least squares of ln aₜ.
 ///
 /// # Errors
 /// [`SpectraError::NotFinite`], [`SpectraError::WrongLength`]; [`SpectraError::OutOfBounds`] of temperatures, or for fewer than
-/// two; [`SpectraError::NoShift`] where no law was found.
+/// two; [`SpectraError::Fluids`] of the reference temperature; [`SpectraError::NoShift`] where no law was found.
 ///
 /// # Example
 /// ```
@@ -247,6 +250,9 @@ pub fn fit_williams_landel_ferry(
     logarithms: &[f64],
     reference_temperature: f64,
 ) -> Result<ShiftFit<WilliamsLandelFerry, 2>, SpectraError> {
+    let start = [8.86, 101.6];
+    // Refuses a reference temperature that is none.
+    WilliamsLandelFerry::new(start[0], start[1], reference_temperature)?;
     let law = |[strength, width]: [f64; 2]| WilliamsLandelFerry::new(strength, width, reference_temperature).ok();
     let slopes = |[strength, width]: [f64; 2], t: f64| {
         let above = t - reference_temperature;
@@ -254,6 +260,6 @@ pub fn fit_williams_landel_ferry(
         [-share, strength * share / (width + above)]
     };
     let lowest = temperatures.iter().fold(reference_temperature, |least: f64, &t| least.min(t));
-    let start = [8.86, 101.6_f64.max(2.0 * (reference_temperature - lowest))];
+    let start = [start[0], start[1].max(2.0 * (reference_temperature - lowest))];
     fit(Shifts { temperatures, logarithms, law: &law, slopes: &slopes }, start)
 }

@@ -143,6 +143,10 @@ fn a_fit_gives_its_best_law_or_the_one_that_is_named() {
     assert_eq!(named, solid("compressible-neo_hookean-liu", &[0.5, 9.0]).unwrap());
     let error = solid_from_fit(summary, Some("yeoh"), None).unwrap_err().to_string();
     assert_eq!(error, "`yeoh` is no model of this fit; there are neo-hookean, mooney-rivlin");
+    let own = r#"{"best_by_aicc": "carroll", "laws": [{"model": "carroll", "parameters": [
+        {"name": "A", "value": 0.15}, {"name": "B", "value": 0.0}, {"name": "C", "value": 0.1}]}]}"#;
+    let error = solid_from_fit(own, None, None).unwrap_err().to_string();
+    assert!(error.contains("`carroll` is no law of this fit; there are neo-hookean"), "{error}");
     assert!(solid_from_fit("[]", None, None).is_err());
     assert!(solid_from_fit(r#"{"model": "yeoh", "parameters": [{"value": 1.0}]}"#, None, None).is_err());
 }

@@ -75,9 +75,9 @@ pub struct SidesResiduals {
     pub test: String,
     /// The RMS residual of the stresses over the largest stress.
     pub relative_rms: f64,
-    /// The RMS residual of the lateral stretches, if they were measured.
+    /// The RMS residual of the lateral stretches over the largest |λ̂ₜ − 1| of the test; `None` if none was measured.
     pub lateral_rms: Option<f64>,
-    /// P − P̂ of each stress, in the order of the rows; of two stresses of a row, the first comes first.
+    /// P − P̂ of each row that is not at rest, in their order.
     pub stresses: Vec<f64>,
     /// λₜ − λ̂ₜ of each measured lateral stretch.
     pub laterals: Vec<f64>,
@@ -212,6 +212,9 @@ impl Problem {
             }
             let begin = points.len();
             points.extend(test.points(model)?);
+            if points.len() == begin {
+                return Err(FitError::NothingTold { test: test.name().to_owned() });
+            }
             parts.push([begin, points.len()]);
         }
         let (mut names, mut ranges) = (Vec::new(), Vec::new());
@@ -224,7 +227,8 @@ impl Problem {
                 return Err(FitError::UnknownParameter { model: model.to_string(), parameter: parameter.clone() });
             };
             let [lower, upper] = [low.max(ranges[k].bounds[0]), high.min(ranges[k].bounds[1])];
-            let holds_a_number = lower <= upper && lower < f64::INFINITY;
+            // The larger of NaN and a number is the number.
+            let holds_a_number = !low.is_nan() && !high.is_nan() && lower <= upper && lower < f64::INFINITY;
             if !holds_a_number {
                 let (model, parameter) = (model.to_string(), parameter.clone());
                 return Err(FitError::ImpossibleBounds { model, parameter, lower, upper });

@@ -89,11 +89,15 @@ impl SidesTest {
     /// Of a table.
     ///
     /// # Errors
-    /// [`FitError::EmptyTest`]; [`FitError::StretchNotPositive`] also for a lateral stretch, [`FitError::StressNotFinite`].
+    /// [`FitError::EmptyTest`]; [`FitError::NoLateral`] of shears and volumes; [`FitError::StretchNotPositive`] also for a lateral stretch, [`FitError::StressNotFinite`].
     pub fn new(name: impl Into<String>, loading: Loading, rows: &[(f64, f64, Option<f64>)]) -> Result<Self, FitError> {
         let name = name.into();
         if rows.is_empty() {
             return Err(FitError::EmptyTest { test: name });
+        }
+        let has_sides = !matches!(loading, Loading::SimpleShear | Loading::Volumetric);
+        if !has_sides && rows.iter().any(|row| row.2.is_some()) {
+            return Err(FitError::NoLateral { test: name, loading: loading.name() });
         }
         for (index, &(stretch, stress, lateral)) in rows.iter().enumerate() {
             let positive = |x: f64| 0.0 < x && x.is_finite();
@@ -174,8 +178,7 @@ impl SidesTest {
                     }
                 };
                 let mut outputs = vec![(Output::Stress { direction, factor }, stress, stress_scale)];
-                let has_sides = !matches!(self.loading, Loading::SimpleShear | Loading::Volumetric);
-                if let Some(measured) = lateral.filter(|_| has_sides) {
+                if let Some(measured) = lateral {
                     outputs.push((Output::Lateral { axis }, measured, side_scale));
                 }
                 Point { base, free, start: if keeps { -0.5 * x } else { 0.0 }, outputs }

@@ -14,8 +14,8 @@ use super::tableau::PairTableau;
 /// Jacobians.
 ///
 /// For stiff oscillators: [`GaussLegendre`](piola_integrators::GaussLegendre) sweeps, which converges while |hω| is about one, and is
-/// faster there. Newton's iteration converges for any step, and the method is stable for any. It resolves the slow motion, keeps the
-/// amplitude of fast vibrations and falsifies their phase. The field must be generic over its scalar.
+/// faster there. Fast linear vibrations do not limit the step. The method resolves the slow motion and keeps the amplitude of fast
+/// vibrations, but their phase is wrong. The field must be generic over its scalar.
 ///
 /// ```text
 /// Yᵢ = y + Σⱼ μᵢⱼ Lⱼ        Lᵢ = h bᵢ f(t + cᵢh, Yᵢ)        y ← y + Σᵢ Lᵢ        μᵢⱼ + μⱼᵢ = 1

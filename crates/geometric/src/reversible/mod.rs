@@ -35,8 +35,8 @@ pub use self::length::StepLength;
 /// | σ(q) | [`StepLength`] | any |
 ///
 /// # Accuracy
-/// Global error O(εᵒʳᵈᵉʳ), with the order of the scheme. On Kepler's ellipse of eccentricity 0.9 with σ = |q|^(3/2) the energy error
-/// after 10⁴ revolutions is what it was after a hundred (test `energy_of_ten_thousand_revolutions_does_not_drift`).
+/// Global error O(εᵒʳᵈᵉʳ), with the order of the scheme. On Kepler's ellipse of eccentricity 0.9 with σ = |q|^(3/2), Störmer–Verlet
+/// and ε = 0.1, the energy error after 10⁴ revolutions is what it was after a hundred (test `energy_of_ten_thousand_revolutions_does_not_drift`).
 ///
 /// # Example
 /// ```
@@ -142,8 +142,8 @@ impl ReversibleComposition {
         self.run(field, length, state, (scale, u64::MAX, Some(end)), observer)
     }
 
-    /// Makes a number of steps, backwards in time if `scale` is negative, from the density of the run before where `continued`. A run
-    /// and the same number of steps back from its end, continued, lead to the start but for rounding.
+    /// Makes `steps` steps, backwards in time if `backwards`. If `continued`, they begin with the density at the end of the run before,
+    /// otherwise with 1/σ(q). A run and the same number of steps back from its end, continued, lead to the start but for rounding.
     ///
     /// # Errors
     /// As [`integrate`](Self::integrate).
@@ -192,6 +192,8 @@ impl ReversibleComposition {
             } else if h.abs() <= 2.0 * f64::EPSILON * state.time.abs() || h.abs() < f64::MIN_POSITIVE {
                 return Err(IntegratorsError::StepTooSmall { t: state.time, step: h });
             }
+            // Of a last step that is cut short, ρ changes by the part that is left.
+            let (before, growth_before, part) = (density, growth, h * middle);
             report.evaluations += self.composition.advance(field, state, h)?;
             match last {
                 Some((_, end)) => state.set_time(end),
@@ -199,7 +201,10 @@ impl ReversibleComposition {
             }
             report.steps += 1;
             growth = self.growth(field, length, state)?.1;
-            density = middle + 0.5 * scale * growth;
+            density = match last {
+                Some(_) => before + 0.5 * part * (growth_before + growth),
+                None => middle + 0.5 * scale * growth,
+            };
             self.density = Some(density);
             if observer(Step { number: report.steps, time: state.time, values: &state.values }).is_break() {
                 report.ending = Ending::Stopped;

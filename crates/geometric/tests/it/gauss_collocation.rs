@@ -68,7 +68,7 @@ fn newton_and_sweeps_lead_to_the_same_state() {
     }
 }
 
-/// k = 10⁸: sweeps diverge, Newton's iteration does not; the energy of ten thousand steps stays where it was.
+/// k = 10⁸: sweeps diverge, Newton's iteration does not; the energy of two thousand steps stays where it was.
 #[test]
 fn stiff_spring_pendulum_keeps_its_energy_where_sweeps_diverge() {
     let k = 1e8;
@@ -76,7 +76,8 @@ fn stiff_spring_pendulum_keeps_its_energy_where_sweeps_diverge() {
         let mut state = State::new(0.0, vec![1.0, 0.0, 0.0, 0.0]).unwrap();
         let error =
             GaussLegendre::new(order, 0.01).unwrap().integrate_to(&mut SpringPendulum(k), &mut state, 1.0).unwrap_err();
-        assert!(!matches!(error, IntegratorsError::WrongLength { .. }));
+        let diverged = matches!(error, IntegratorsError::StagesDiverged { .. } | IntegratorsError::NotFinite { .. });
+        assert!(diverged, "{error}");
         let mut state = State::new(0.0, vec![1.0, 0.0, 0.0, 0.0]).unwrap();
         let before = energy(k, &state.values);
         GaussCollocation::new(order, 0.01).unwrap().integrate_to(&mut SpringPendulum(k), &mut state, 20.0).unwrap();

@@ -151,6 +151,25 @@ fn runs_backwards_and_empty_runs() {
     assert_eq!((report.steps, report.ending), (1, piola_integrators::Ending::Stopped));
 }
 
+/// The density at the end of a run whose last step was cut short is near 1/σ, to O(ε²) and not O(ε).
+#[test]
+fn density_after_a_step_that_was_cut_short_is_that_of_the_end() {
+    let mut departures = Vec::new();
+    for scale in [0.1, 0.05, 0.025] {
+        let mut method = ReversibleComposition::new(SplittingScheme::Nystrom6, scale).unwrap();
+        let mut largest = 0.0_f64;
+        for k in 0..20 {
+            let mut state = start(0.6);
+            method.integrate_to(&mut Kepler, &Distance, &mut state, 1.0 + 0.013 * f64::from(k)).unwrap();
+            let sigma = state.values[0].hypot(state.values[1]).powf(1.5);
+            largest = largest.max((method.density().unwrap() * sigma - 1.0).abs());
+        }
+        departures.push(largest);
+    }
+    assert!(departures[0] < 0.02, "{departures:?}");
+    assert!(departures.windows(2).all(|pair| 3.0 * pair[1] < pair[0]), "{departures:?}");
+}
+
 #[test]
 fn steps_allocate_nothing() {
     let mut state = start(0.9);

@@ -59,7 +59,7 @@ fn a_back_stress_of_nothing_leaves_the_viscoplastic_solid() -> Fallible {
     Ok(())
 }
 
-/// Bauschinger's effect at large strain, and volumes that flow does not change.
+/// Flow changes neither of the inelastic volumes.
 #[test]
 fn loads_to_and_fro_keep_the_inelastic_volumes() -> Fallible {
     let law = kinematic(0.0)?;

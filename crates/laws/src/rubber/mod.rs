@@ -14,8 +14,8 @@
 //! The exact network of eight chains is [`piola_solids::isochoric::ArrudaBoyce`].
 //!
 //! The first three are parts, as those of [`piola_solids::isochoric`]: [`IncompressibleSolid`](piola_solids::IncompressibleSolid) and
-//! [`Compressible`](piola_solids::Compressible) make laws of them. Where it is read from a file or an argument which law it is:
-//! [`AnyRubber`].
+//! [`Compressible`](piola_solids::Compressible) make laws of them. [`AnyRubber`] is any of these
+//! laws, for programs that read a law from a file or an argument.
 
 mod any;
 mod carroll;

@@ -55,6 +55,18 @@ impl FromStr for Program {
     }
 }
 
+impl core::fmt::Display for Program {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::Abaqus => "Abaqus",
+            Self::CalculiX => "CalculiX",
+            Self::Ansys => "Ansys",
+            Self::LsDyna => "LS-DYNA",
+            Self::FeBio => "FEBio",
+        })
+    }
+}
+
 impl Program {
     /// The ending of its files.
     #[must_use]
@@ -165,7 +177,7 @@ fn law(model: AnyModel, values: &[f64]) -> Option<Law> {
 /// ```
 pub fn card(program: Program, model: AnyModel, fit: &Fit, bulk: Bulk) -> Result<String, MeasuredError> {
     bulk.check(program)?;
-    let none = || MeasuredError::NoCard { law: model.to_string(), program: format!("{program:?}") };
+    let none = || MeasuredError::NoCard { law: model.to_string(), program: program.to_string() };
     let law = law(model, &fit.values()).ok_or_else(none)?;
     let name = model.to_string().replace(':', "-");
     match (program, law) {

@@ -202,6 +202,10 @@ fn torsion(request: &SpecimenRequest) -> Result<LoadedSpecimen, MeasuredError> {
 }
 
 fn twisted(request: &SpecimenRequest, law: &impl Isochoric) -> Result<LoadedSpecimen, MeasuredError> {
+    let known = |name: &str| matches!(name, "radius" | "inner_radius");
+    if let Some((name, size)) = request.sizes.iter().find(|(name, _)| !known(name)) {
+        return Err(MeasuredError::Argument { argument: format!("{name} = {size}"), valid: "radius or inner_radius" });
+    }
     let size = |name: &str| -> Result<Option<f64>, MeasuredError> {
         let Some((_, text)) = request.sizes.iter().find(|(other, _)| other == name) else { return Ok(None) };
         let refused = || MeasuredError::Argument { argument: format!("{name} = {text}"), valid: "a length, as 5 mm" };

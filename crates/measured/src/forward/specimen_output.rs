@@ -22,7 +22,7 @@ impl LoadedSpecimen {
         self.columns.iter().position(|(other, _)| other == name)
     }
 
-    /// The columns that a reader wants first: what is changed, and what answers.
+    /// The driven quantity, then the responses that a reader wants first.
     fn shown(&self) -> Vec<usize> {
         let asked = self.shown.iter().filter_map(|name| self.index(name)).filter(|&index| 0 < index);
         core::iter::once(0).chain(asked).collect()

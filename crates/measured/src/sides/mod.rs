@@ -167,7 +167,7 @@ const fn state(state: piola_fit::State) -> &'static str {
 /// [`MeasuredError::NoCard`] for other laws and programs.
 pub fn card_of_foam(program: Program, model: SidesModel, fit: &SidesFit) -> Result<String, MeasuredError> {
     let (SidesModel::Hyperfoam(series), Program::Abaqus | Program::CalculiX) = (model, program) else {
-        return Err(MeasuredError::NoCard { law: model.to_string(), program: format!("{program:?}") });
+        return Err(MeasuredError::NoCard { law: model.to_string(), program: program.to_string() });
     };
     let values = fit.values();
     let terms = values.chunks_exact(3);

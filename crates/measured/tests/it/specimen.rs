@@ -156,6 +156,10 @@ fn what_does_not_go_together_is_refused_by_name() {
     let ogden =
         request("torsion", "ogden:1:mu1=1 MPa,alpha1=2", ("twist", "0..1 rad/m"), &[]).with_size("radius", "1 mm");
     assert!(specimen(&ogden).is_err_and(|error| error.to_string().contains("without a bulk modulus")));
+    let terms = solid("hyperfoam:9:mu1=1 MPa", None).err().map(|error| error.to_string()).unwrap_or_default();
+    assert!(terms.contains("must be 1 to 6"), "{terms}");
+    let other = request("torsion", MOONEY, ("twist", "0..1 rad/m"), &[]).with_size("length", "1 mm");
+    assert!(specimen(&other).is_err_and(|error| error.to_string().contains("radius or inner_radius")));
     for wrong in [
         "rubber",
         "neo-hookean",

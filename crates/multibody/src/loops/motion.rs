@@ -9,7 +9,7 @@ use crate::error::MultibodyError;
 /// The least share of its own of a condition below which a state lies beside a singular position.
 const BESIDE: f64 = 0.05;
 
-/// The same below which rounding would move a projected state, at x from the position by ε/x², more than the method errs.
+/// The least share below which a state is not projected: there rounding, ε/x² at the distance x, exceeds the error of the method.
 const CLOSE_BY: f64 = 1e-6;
 
 /// The motion y = (q, v) of a tree with closures under forces, as a field whose steps end where the closures hold.
@@ -21,7 +21,8 @@ const CLOSE_BY: f64 = 1e-6;
 /// At a singular position conditions that are independent elsewhere depend on each other, and motions of several kinds meet.
 /// The motion goes on along the smooth branch, the one of its velocity, and lists the position. With
 /// [`stopping_at_singular_positions`](Self::stopping_at_singular_positions) it ends before the position with an error.
-/// A position in which the run starts is not recognised as singular.
+/// A position in which the run starts is not recognised as singular. Between two runs of one motion stands
+/// [`restart`](Self::restart).
 ///
 /// # Accuracy
 /// At the distance x from a singular position rounding moves a state that is brought onto the branch by ε/x². Runs through such
@@ -108,6 +109,14 @@ impl<F> ClosedMotion<'_, F> {
     /// How many singular positions accepted steps went through.
     pub const fn singular_count(&self) -> usize {
         self.passages.count()
+    }
+
+    /// Forgets the run before: the next evaluation is the start of another one.
+    pub fn restart(&mut self) {
+        self.work.usual_rank = 0;
+        self.passages.clear();
+        self.beside = [false; 2];
+        self.stopped = None;
     }
 
     fn go_on(&self) -> Result<(), MultibodyError> {

@@ -55,6 +55,13 @@ impl Passages {
         }
     }
 
+    /// Forgets all states and positions.
+    pub(super) fn clear(&mut self) {
+        (self.t_before, self.t_next, self.between, self.passed_by) = (None, None, None, false);
+        self.listed.clear();
+        self.count = 0;
+    }
+
     pub(super) fn listed(&self) -> &[SingularPosition] {
         &self.listed
     }

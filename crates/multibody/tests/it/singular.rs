@@ -140,6 +140,23 @@ fn motion_that_is_to_stop_at_singular_positions_ends_before_the_first() {
     assert_eq!(motion.singular_count(), 0);
 }
 
+/// A motion that is begun anew knows nothing of the run before.
+#[test]
+fn restarted_motion_lists_the_positions_of_its_own_run() {
+    let closed = ladder(1, 0.0);
+    let mut motion = closed.motion(|_t, _q, _v, tau| tau.fill(0.0));
+    let mut ends = Vec::new();
+    for _ in 0..2 {
+        motion.restart();
+        assert!(motion.singular_positions().is_empty() && motion.singular_count() == 0);
+        let mut state = State::new(0.0, start(1, 0.0)).unwrap();
+        method(1e-9).integrate_to(&mut motion, &mut state, 2.0).unwrap();
+        assert!(0 < motion.singular_count());
+        ends.push((state, motion.singular_positions().to_vec()));
+    }
+    assert_eq!(ends[0], ends[1]);
+}
+
 #[test]
 fn steps_beside_and_through_a_singular_position_allocate_nothing() {
     let closed = ladder(1, 0.4);

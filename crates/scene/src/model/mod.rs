@@ -252,8 +252,8 @@ impl<'d> Builder<'d> {
     }
 
     fn integrator(&mut self, record: &Record) -> IntegratorRequest {
-        /// Some way below rounding errors still fall, since their estimate is pessimistic.
-        const LEAST_TOLERANCE: f64 = 1e-20;
+        /// Methods raise what is less: their steps would grow short, and nothing would be won.
+        const LEAST_TOLERANCE: f64 = 2.0 * f64::EPSILON;
         let table = record.record("integrator");
         let method = table.and_then(|table| table.text("method")).unwrap_or("auto").to_string();
         let request = IntegratorRequest {
@@ -265,8 +265,8 @@ impl<'d> Builder<'d> {
             && tolerance < LEAST_TOLERANCE
         {
             self.wrong(
-                Mistake::new(table.place_of("tolerance"), format!("the tolerance {tolerance:e} is far below rounding"))
-                    .valid(format!("from {LEAST_TOLERANCE:e} to less than 1; rounding is 1e-16")),
+                Mistake::new(table.place_of("tolerance"), format!("the tolerance {tolerance:e} is below rounding"))
+                    .valid(format!("from {LEAST_TOLERANCE:.1e} to less than 1")),
             );
         }
         if let Some(table) = table {

@@ -10,9 +10,8 @@ use piola_gravitation::kepler::KeplerMotion;
 const STEPS_PER_TURN: f64 = 100.0;
 /// Relative tolerance when none is asked for.
 const TOLERANCE: f64 = 1e-12;
-/// Relative tolerance for errors near rounding. It is below rounding because the error estimate is pessimistic (on an ellipse of
-/// eccentricity 0.99 the error still falls fivefold from 1e-16 to 1e-18, and little from there on).
-const FINE_TOLERANCE: f64 = 1e-18;
+/// Relative tolerance for errors near rounding: the least that methods take.
+const FINE_TOLERANCE: f64 = 2.0 * f64::EPSILON;
 /// Tolerance of mechanisms, whose evaluations cost more.
 const MECHANISM_TOLERANCE: f64 = 1e-15;
 
@@ -51,10 +50,6 @@ fn adaptive(scene: &Scene, tolerance: f64, why: &str) -> (Method, String) {
     /// The error at the end of a run, in tolerances of a step.
     const AT_THE_END: f64 = 10.0;
     let tolerance = scene.integrator.tolerance.unwrap_or(tolerance);
-    if tolerance < f64::EPSILON {
-        // Below rounding an estimate of order eight is nothing but rounding; those of orders five and three still fall.
-        return (Method::DormandPrince { tolerance }, why.to_string());
-    }
     let character = match &scene.system {
         // The equations of a mechanism are given as rates of first order.
         System::Mechanism(_) => Character::of_first_order(),

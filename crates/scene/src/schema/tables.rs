@@ -275,8 +275,8 @@ table! {
         method: Kind::Choice(&METHODS), Default("\"auto\"");
         /// Step of a method of fixed step; chosen by the planner when absent.
         step: quantity(D::TIME, Positive), Optional;
-        /// Relative tolerance of a step of an adaptive method, at least 1e-20. When absent 1e-12 for bodies that attract each other,
-        /// 1e-15 for mechanisms, 1e-18 about a fixed centre: the plan shows it.
+        /// Relative tolerance of a step of an adaptive method, at least 4.5e-16. When absent 1e-12 for bodies that attract each other,
+        /// 1e-15 for mechanisms, 4.4e-16 about a fixed centre: the plan shows it.
         tolerance: quantity(D::NONE, Fraction), Optional;
     }
 }
