@@ -7,6 +7,7 @@ use std::io::Write as _;
 use std::path::Path;
 
 use piola_charts::{Folder, Written};
+use piola_forward::ForwardError;
 use piola_measured::MeasuredError;
 use piola_scene::output::{self, Summary};
 use piola_scene::run::{self, Outcome, Prediction};
@@ -231,6 +232,17 @@ pub(crate) fn refused(error: &MeasuredError, json: bool) -> Exit {
         _ => failure(error, json),
     }
     Exit::Invalid
+}
+
+/// A flow or a specimen that is not accepted.
+pub(crate) fn refused_forward(error: &ForwardError, json: bool) -> Exit {
+    match error {
+        ForwardError::Measured(error) => refused(error, json),
+        _ => {
+            failure(error, json);
+            Exit::Invalid
+        }
+    }
 }
 
 pub(crate) fn failure(error: &impl core::fmt::Display, json: bool) {

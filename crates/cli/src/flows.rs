@@ -4,16 +4,16 @@ use core::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use piola_charts::{Folder, Written};
+use piola_forward::{FlowRequest, ForwardError};
 use piola_measured::MeasuredError;
 use piola_measured::comparison::{Comparison, Judged, Watch};
-use piola_measured::forward::{self, FlowRequest};
 use piola_measured::rheology::{
-    self, FlowKind, FluidName, Intervals, Measured, Noise, Reading, RecoveryRequest, Request, Rise, Weighting,
+    self, FlowKind, FluidModel, Intervals, Measured, Noise, Reading, RecoveryRequest, Request, Rise, Weighting,
 };
 
 use crate::Exit;
 use crate::arguments::{FitFlowArguments, FlowArguments, RecoverArguments, SolveArguments};
-use crate::commands::{listing, note, print, refused};
+use crate::commands::{listing, note, print, refused, refused_forward};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
 
@@ -64,7 +64,7 @@ pub(crate) fn fit(arguments: &FitFlowArguments) -> Exit {
     let interrupt = Interrupt::listen();
     let prepared = load(&arguments.data, flow).and_then(|measured| {
         let fluids = match arguments.fluids.as_slice() {
-            [] => FluidName::usual(),
+            [] => FluidModel::usual(),
             names => names.iter().map(|name| name.parse()).collect::<Result<_, _>>()?,
         };
         let mut request = Request::of(fluids);
@@ -98,9 +98,9 @@ pub(crate) fn fit(arguments: &FitFlowArguments) -> Exit {
 }
 
 pub(crate) fn solve(arguments: &SolveArguments) -> Exit {
-    let prepared = forward::fluid(&arguments.fluid).and_then(|fluid| {
+    let prepared = piola_forward::fluid(&arguments.fluid).and_then(|fluid| {
         let Some((name, value)) = arguments.given.split_once('=') else {
-            return Err(MeasuredError::Argument {
+            return Err(ForwardError::Argument {
                 argument: format!("--given {}", arguments.given),
                 valid: "NAME=VALUE, as 'discharge=3 mL/s'",
             });
@@ -118,7 +118,7 @@ pub(crate) fn solve(arguments: &SolveArguments) -> Exit {
         let sizes: Vec<(&str, &str)> =
             sizes.into_iter().filter_map(|(name, value)| Some((name, value.as_deref()?))).collect();
         let request = FlowRequest::new(&arguments.flow, fluid, &sizes, (name.trim(), value.trim()));
-        let solved = forward::solve(&request)?;
+        let solved = piola_forward::solve(&request)?;
         let beside = || Path::new("out").join(format!("flow-{}", arguments.flow));
         let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
         Ok((solved, folder))
@@ -130,7 +130,7 @@ pub(crate) fn solve(arguments: &SolveArguments) -> Exit {
             show(&text, arguments.json, &folder, &written);
             if written.failures.is_empty() { Exit::Done } else { Exit::Failed }
         }
-        Err(error) => refused(&error, arguments.json),
+        Err(error) => refused_forward(&error, arguments.json),
     }
 }
 

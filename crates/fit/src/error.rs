@@ -94,6 +94,13 @@ pub enum FitError {
         /// The name.
         name: String,
     },
+    /// A fluid has a name that is not known.
+    #[error("no fluid with parameters in a row is called `{name}`; they are {}", crate::fluids::FluidModel::NAMES.join(", "))]
+    #[cfg(feature = "fluids")]
+    UnknownFluid {
+        /// The name.
+        name: String,
+    },
     /// A law of foam or fibres has a name that is not known.
     #[error("no law of foam or fibres is called `{name}`; they are hyperfoam:n and holzapfel-gasser-ogden")]
     UnknownSidesModel {

@@ -4,9 +4,6 @@ use std::path::PathBuf;
 
 use piola_charts::ChartsError;
 use piola_fit::FitError;
-#[cfg(feature = "specimens")]
-use piola_solutions::SolutionsError;
-use piola_specimens::SpecimensError;
 use piola_viscometry::ViscometryError;
 
 use crate::fitting::TableReport;
@@ -56,22 +53,6 @@ pub enum MeasuredError {
         /// The valid arguments in words.
         valid: &'static str,
     },
-    /// A fluid cannot be made of what is given.
-    #[error("`{argument}` is no fluid: {cause}")]
-    Fluid {
-        /// The argument.
-        argument: String,
-        /// What is wrong.
-        cause: String,
-    },
-    /// A solid cannot be made of what is given.
-    #[error("`{argument}` is no solid: {cause}")]
-    Solid {
-        /// The argument.
-        argument: String,
-        /// What is wrong.
-        cause: String,
-    },
     /// A finite-element program has no such law.
     #[error(
         "{program} has no card of {law}; laws with cards are neo-hookean, mooney-rivlin, yeoh, polynomial:n and ogden:n, and in \
@@ -82,12 +63,6 @@ pub enum MeasuredError {
         law: String,
         /// The program.
         program: String,
-    },
-    /// A flow lacks one of its sizes.
-    #[error("{name} is not given; valid: --{} with a number and its unit", name.replace('_', "-"))]
-    MissingSize {
-        /// The size.
-        name: String,
     },
     /// A weight is given to a test that is not in the data.
     #[error("no test is called `{name}`; the tests are: {}", tests.join(", "))]
@@ -103,13 +78,6 @@ pub enum MeasuredError {
     /// A fluid or its data are refused.
     #[error(transparent)]
     Viscometry(#[from] ViscometryError),
-    /// A specimen or its path is refused.
-    #[error(transparent)]
-    Specimens(#[from] SpecimensError),
-    /// A twisted rod is refused.
-    #[cfg(feature = "specimens")]
-    #[error(transparent)]
-    Solutions(#[from] SolutionsError),
     /// The results cannot be written.
     #[error(transparent)]
     Charts(#[from] ChartsError),

@@ -5,9 +5,16 @@
 pub mod comparison;
 mod error;
 pub mod fitting;
-pub mod forward;
 pub mod rheology;
 mod sheet;
 pub mod sides;
+mod written;
+
+/// What other crates of Piola use; no part of the interface.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::sheet::{read, spelled};
+    pub use crate::written::{written_fluid, written_solid};
+}
 
 pub use error::MeasuredError;

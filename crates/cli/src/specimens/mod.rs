@@ -4,11 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use piola_charts::Folder;
-use piola_measured::MeasuredError;
-use piola_measured::forward::{self, SpecimenRequest};
+use piola_forward::{ForwardError, SpecimenRequest};
 
 use crate::Exit;
-use crate::commands::{note, refused};
+use crate::commands::{note, refused_forward};
 use crate::flows::show;
 
 #[derive(Debug, Args)]
@@ -46,7 +45,7 @@ pub(crate) struct SpecimenArguments {
 }
 
 pub(crate) fn load(arguments: &SpecimenArguments) -> Exit {
-    let prepared = forward::solid(&arguments.solid, arguments.bulk_modulus.as_deref()).and_then(|solid| {
+    let prepared = piola_forward::solid(&arguments.solid, arguments.bulk_modulus.as_deref()).and_then(|solid| {
         let path = pair("path", &arguments.path)?;
         let held = arguments.held.iter().map(|text| pair("with", text)).collect::<Result<Vec<_>, _>>()?;
         let mut request = SpecimenRequest::new(&arguments.test, solid, path, &held);
@@ -56,7 +55,7 @@ pub(crate) fn load(arguments: &SpecimenArguments) -> Exit {
                 request = request.with_size(name, size);
             }
         }
-        let loaded = forward::specimen(&request)?;
+        let loaded = piola_forward::specimen(&request)?;
         let beside = || Path::new("out").join(format!("specimen-{}", arguments.test));
         let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
         Ok((loaded, folder))
@@ -71,13 +70,13 @@ pub(crate) fn load(arguments: &SpecimenArguments) -> Exit {
             }
             if loaded.ended.is_none() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
         }
-        Err(error) => refused(&error, arguments.json),
+        Err(error) => refused_forward(&error, arguments.json),
     }
 }
 
 /// `NAME=VALUE`.
-fn pair<'t>(option: &str, text: &'t str) -> Result<(&'t str, &'t str), MeasuredError> {
-    text.split_once('=').map(|(name, value)| (name.trim(), value.trim())).ok_or_else(|| MeasuredError::Argument {
+fn pair<'t>(option: &str, text: &'t str) -> Result<(&'t str, &'t str), ForwardError> {
+    text.split_once('=').map(|(name, value)| (name.trim(), value.trim())).ok_or_else(|| ForwardError::Argument {
         argument: format!("--{option} {text}"),
         valid: "NAME=VALUE, as stretch=1..3 or P22='10 kPa'",
     })

@@ -17,10 +17,12 @@
 //! # Ok::<(), piola_fit::FitError>(())
 //! ```
 
+mod any;
 mod data;
 mod search;
 
 pub use crate::{Autocorrelation, Covariance, Criteria, Intervals, Outcome, State};
+pub use any::FluidModel;
 pub use data::FlowData;
 
 use core::cell::Cell;
@@ -158,21 +160,28 @@ pub fn fit_flow_until<F: Parameters<N> + ViscometricFluid, const N: usize>(
     let starts: Vec<&[f64]> = starts.iter().map(<[f64; N]>::as_slice).collect();
     let found = fit_model(&model, data, &starts, options, stop)?;
     let fluid = F::from_parameters(core::array::from_fn(|k| found.parameters[k].value))?;
-    let FluidFit { parameters, covariance, residuals, squares, degrees_of_freedom, criteria, outcome, .. } = found;
-    let FluidFit { evaluations, starts_that_agree, autocorrelation, .. } = found;
-    Ok(FluidFit {
-        fluid,
-        parameters,
-        covariance,
-        residuals,
-        squares,
-        degrees_of_freedom,
-        autocorrelation,
-        criteria,
-        outcome,
-        evaluations,
-        starts_that_agree,
-    })
+    Ok(found.with_fluid(|()| fluid))
+}
+
+impl<F> FluidFit<F> {
+    /// The same fit of the fluid in another form.
+    pub(crate) fn with_fluid<G>(self, form: impl FnOnce(F) -> G) -> FluidFit<G> {
+        let Self { fluid, parameters, covariance, residuals, squares, degrees_of_freedom, .. } = self;
+        let Self { autocorrelation, criteria, outcome, evaluations, starts_that_agree, .. } = self;
+        FluidFit {
+            fluid: form(fluid),
+            parameters,
+            covariance,
+            residuals,
+            squares,
+            degrees_of_freedom,
+            autocorrelation,
+            criteria,
+            outcome,
+            evaluations,
+            starts_that_agree,
+        }
+    }
 }
 
 /// Rows beyond which starts are first tried on some of them.

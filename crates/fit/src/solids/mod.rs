@@ -18,6 +18,7 @@
 //! # Example
 //! See the [crate].
 
+mod any;
 mod crossed;
 mod laws;
 mod linear;

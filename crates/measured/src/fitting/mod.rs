@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 
 use piola_charts::{Folder, Written};
 use piola_fit::FitError;
-use piola_fit::solids::{AnyModel, Data, alone, contradictions, fit_until, held_out};
+use piola_fit::solids::{AnyModel, Data, contradictions};
 
 use crate::MeasuredError;
 use crate::comparison::{self, Judged, Watch};
@@ -160,15 +160,15 @@ pub fn compare_until(
     request.check_bounds(&data)?;
     Ok(Comparison::of(&request.laws, watch, |law, stop| {
         let options = request.options(law);
-        let fit = fit_until(&law, &data, &options, stop)?;
-        let predicted = held.iter().map(|test| test.beside(&law, &fit)).collect::<Result<_, _>>()?;
+        let fit = law.fit_until(&data, &options, stop)?;
+        let predicted = held.iter().map(|test| law.residuals(test, &fit)).collect::<Result<_, _>>()?;
         let left_out = if request.cross_validation && 1 < data.tests().len() && !stop() {
-            held_out(&law, &data, &options)
+            law.held_out(&data, &options)
                 .map_or_else(|_| Vec::new(), |tests| tests.into_iter().map(|test| test.residuals).collect())
         } else {
             Vec::new()
         };
-        let contradictions = if stop() { Vec::new() } else { contradictions(&alone(&law, &data, &options, &fit)) };
+        let contradictions = if stop() { Vec::new() } else { contradictions(&law.alone(&data, &options, &fit)) };
         Ok(FittedLaw { fit, contradictions, predicted, left_out })
     }))
 }

@@ -2,7 +2,7 @@
 
 use core::fmt::Write as _;
 
-use piola_fit::solids::{AnyModel, Covariance, Fit, Fitted, Measure, Prediction, Test, predict};
+use piola_fit::solids::{AnyModel, Covariance, Fit, Fitted, Measure, Prediction, Test};
 use piola_specimens::homogeneous::Mode;
 use serde_json::{Value, json};
 
@@ -116,7 +116,7 @@ pub(super) fn predictions(
             let rest = mode.rest();
             let stretches: Vec<f64> =
                 (0..=POINTS).map(|k| rest + (reach - rest) * f64::from(k) / f64::from(POINTS)).collect();
-            for found in predict(&law, &fit.fit, mode, Measure::FirstPiola, &stretches)? {
+            for found in law.predict(&fit.fit, mode, Measure::FirstPiola, &stretches)? {
                 let Prediction { stretch, stress, half_width, .. } = found;
                 let band = half_width
                     .map_or_else(|| ",".to_owned(), |half| format!("{:?},{:?}", stress - half, stress + half));

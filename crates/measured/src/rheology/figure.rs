@@ -2,7 +2,7 @@
 
 use piola_charts::{FINE, LogPanel, RGBColor, colour, figure, legend, residuals as of_residuals};
 
-use super::{Answering, Comparison, Correction, FittedFluid, FluidName, Function, Measured, Point, RecoveredCurve};
+use super::{Answering, Comparison, Correction, FittedFluid, FluidModel, Function, Measured, Point, RecoveredCurve};
 
 /// The axes of a curve for a reader.
 fn axes(function: Function) -> [String; 2] {
@@ -18,8 +18,8 @@ fn written(column: &str) -> String {
 const DRAWN: usize = 5;
 
 /// The fluids that are drawn, in the order of the table.
-fn drawn(comparison: &Comparison) -> Vec<(FluidName, &FittedFluid)> {
-    let mut all: Vec<(FluidName, &FittedFluid)> = comparison.fits().collect();
+fn drawn(comparison: &Comparison) -> Vec<(FluidModel, &FittedFluid)> {
+    let mut all: Vec<(FluidModel, &FittedFluid)> = comparison.fits().collect();
     let mut squares: Vec<f64> = all.iter().map(|(_, fit)| fit.squares).collect();
     squares.sort_by(f64::total_cmp);
     if let Some(&most) = squares.get(DRAWN) {

@@ -1,19 +1,14 @@
 //! Parameters of fluids from flow curves, discharges and speeds.
 
-use core::fmt;
 use core::fmt::Write as _;
 use core::ops::ControlFlow;
-use core::str::FromStr;
 
 use piola_charts::{Folder, Written};
 use piola_fit::FitError;
 use piola_fit::fluids::{
-    Autocorrelation, Criteria, FlowData, FluidParameter, Intervals, Options, Outcome, State, Weighting, fit_flow_until,
+    Autocorrelation, Criteria, FlowData, FluidModel, FluidParameter, Intervals, Options, Outcome, State, Weighting,
 };
-use piola_fluids::{
-    Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, Papanastasiou, Parameters,
-    PowerLaw, Sisko, ViscometricFluid,
-};
+use piola_fluids::ViscometricFluid as _;
 use piola_viscometry::recover::Noise;
 use serde_json::{Value, json};
 
@@ -23,10 +18,6 @@ use crate::comparison::{self, Judged, Watch};
 
 /// Points of a curve.
 const POINTS: u32 = 120;
-
-/// A fluid by its name, as `carreau-yasuda`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct FluidName(&'static str);
 
 /// Magnitudes of the data, from which searches start.
 struct Look {
@@ -81,17 +72,16 @@ pub struct FittedFluid {
     pub curve: Vec<[f64; 2]>,
 }
 
-fn fitted<F: Parameters<N> + ViscometricFluid, const N: usize>(
+/// Searches from the usual starts, or from `more`.
+fn fitted(
+    model: FluidModel,
     task: &Task<'_>,
-    starts: &[[f64; N]],
     more: &[Vec<f64>],
     stop: &dyn Fn() -> bool,
 ) -> Result<FittedFluid, FitError> {
     let measured = task.measured;
-    let own = |values: &Vec<f64>| -> Option<[f64; N]> { values.as_slice().try_into().ok() };
-    let more: Vec<[f64; N]> = more.iter().filter_map(own).collect();
-    let starts = if more.is_empty() { starts } else { more.as_slice() };
-    let fit = fit_flow_until::<F, N>(task.data, starts, task.options, stop)?;
+    let usual = task.look.starts(model);
+    let fit = model.fit_until(task.data, if more.is_empty() { &usual } else { more }, task.options, stop)?;
     let curve = curve(measured, &|rate| fit.fluid.shear_stress(rate));
     Ok(FittedFluid {
         parameters: fit.parameters,
@@ -120,117 +110,71 @@ fn curve(measured: &Measured, stress: &dyn Fn(f64) -> f64) -> Vec<[f64; 2]> {
     (0..=POINTS).map(|k| [rate(k), stress(rate(k))]).collect()
 }
 
-/// The fluids: a name, a type, and where its searches start.
-macro_rules! fluids {
-    ($($name:literal => $fluid:ident($count:literal): |$look:ident| $starts:expr),+ $(,)?) => {
-        impl FluidName {
-            /// All of them.
-            pub const ALL: &'static [Self] = &[$(Self($name)),+];
-
-            /// From the usual starts, or from `more`.
-            fn fit(
-                self,
-                task: &Task<'_>,
-                more: &[Vec<f64>],
-                stop: &dyn Fn() -> bool,
-            ) -> Result<FittedFluid, FitError> {
-                $(if self.0 == $name {
-                    let $look = &task.look;
-                    return fitted::<$fluid, $count>(task, &$starts, more, stop);
-                })+
-                Err(FitError::NoStart { model: self.0.to_owned() })
+impl Look {
+    /// Where the searches of a fluid start.
+    fn starts(&self, model: FluidModel) -> Vec<Vec<f64>> {
+        let Self { viscosity, stress, rate, power } = self;
+        match model {
+            FluidModel::Newtonian => vec![vec![stress[1] / rate]],
+            FluidModel::PowerLaw => vec![power.to_vec()],
+            FluidModel::Bingham => vec![vec![0.8 * stress[0], viscosity[0]], vec![0.1 * stress[0], viscosity[0]]],
+            FluidModel::Casson => {
+                vec![vec![0.8 * stress[0], 0.5 * viscosity[0]], vec![0.1 * stress[0], 0.5 * viscosity[0]]]
             }
+            FluidModel::HerschelBulkley => vec![
+                vec![0.8 * stress[0], 0.5 * power[0], power[1].max(0.4)],
+                vec![0.1 * stress[0], power[0], power[1]],
+            ],
+            FluidModel::Papanastasiou => vec![
+                vec![0.8 * stress[0], 0.5 * power[0], power[1].max(0.4), 10.0 / rate],
+                vec![0.1 * stress[0], power[0], power[1], 100.0 / rate],
+            ],
+            FluidModel::Eyring => vec![vec![stress[1], viscosity[1] / stress[1]]],
+            FluidModel::Sisko => vec![vec![0.5 * viscosity[0], power[0], power[1].min(0.9)]],
+            FluidModel::Ellis => vec![vec![viscosity[1], stress[1], (1.0 / power[1]).clamp(1.2, 5.0)]],
+            FluidModel::Cross => {
+                let exponent = (1.0 - power[1]).clamp(0.2, 0.95);
+                vec![
+                    vec![1.2 * viscosity[1], 0.1 * viscosity[0], 1.0 / rate, exponent],
+                    vec![2.0 * viscosity[1], 1e-3 * viscosity[0], 10.0 / rate, exponent],
+                ]
+            }
+            FluidModel::CarreauYasuda => {
+                let exponent = power[1].clamp(0.1, 0.9);
+                vec![
+                    vec![1.1 * viscosity[1], 0.1 * viscosity[0], 1.0 / rate, exponent, 2.0],
+                    vec![2.0 * viscosity[1], 1e-3 * viscosity[0], 10.0 / rate, exponent, 1.0],
+                ]
+            }
+            // No other has starts: it is refused for want of them.
+            _ => Vec::new(),
         }
-    };
-}
-
-fluids! {
-    "newtonian" => Newtonian(1): |look| [[look.stress[1] / look.rate]],
-    "power-law" => PowerLaw(2): |look| [look.power],
-    "bingham" => Bingham(2): |look| [
-        [0.8 * look.stress[0], look.viscosity[0]],
-        [0.1 * look.stress[0], look.viscosity[0]],
-    ],
-    "casson" => Casson(2): |look| [
-        [0.8 * look.stress[0], 0.5 * look.viscosity[0]],
-        [0.1 * look.stress[0], 0.5 * look.viscosity[0]],
-    ],
-    "herschel-bulkley" => HerschelBulkley(3): |look| [
-        [0.8 * look.stress[0], 0.5 * look.power[0], look.power[1].max(0.4)],
-        [0.1 * look.stress[0], look.power[0], look.power[1]],
-    ],
-    "papanastasiou" => Papanastasiou(4): |look| [
-        [0.8 * look.stress[0], 0.5 * look.power[0], look.power[1].max(0.4), 10.0 / look.rate],
-        [0.1 * look.stress[0], look.power[0], look.power[1], 100.0 / look.rate],
-    ],
-    "eyring" => Eyring(2): |look| [[look.stress[1], look.viscosity[1] / look.stress[1]]],
-    "sisko" => Sisko(3): |look| [[0.5 * look.viscosity[0], look.power[0], look.power[1].min(0.9)]],
-    "ellis" => Ellis(3): |look| [[look.viscosity[1], look.stress[1], (1.0 / look.power[1]).clamp(1.2, 5.0)]],
-    "cross" => Cross(4): |look| [
-        [1.2 * look.viscosity[1], 0.1 * look.viscosity[0], 1.0 / look.rate, (1.0 - look.power[1]).clamp(0.2, 0.95)],
-        [2.0 * look.viscosity[1], 1e-3 * look.viscosity[0], 10.0 / look.rate, (1.0 - look.power[1]).clamp(0.2, 0.95)],
-    ],
-    "carreau-yasuda" => CarreauYasuda(5): |look| [
-        [1.1 * look.viscosity[1], 0.1 * look.viscosity[0], 1.0 / look.rate, look.power[1].clamp(0.1, 0.9), 2.0],
-        [2.0 * look.viscosity[1], 1e-3 * look.viscosity[0], 10.0 / look.rate, look.power[1].clamp(0.1, 0.9), 1.0],
-    ],
+    }
 }
 
 /// The place of a fluid's parameters in one that contains it; what it has not is so small that it does nothing.
-type Embedding = (&'static str, &'static str, fn(&[f64]) -> Vec<f64>);
+type Embedding = (FluidModel, FluidModel, fn(&[f64]) -> Vec<f64>);
 
 /// Of no effect beside a number of its size.
 const NOTHING: f64 = 1e-12;
 
 /// Fluids with fluids that they contain.
 const CONTAINED: [Embedding; 7] = [
-    ("power-law", "newtonian", |p| vec![p[0], 1.0]),
-    ("bingham", "newtonian", |p| vec![NOTHING * p[0], p[0]]),
-    ("casson", "newtonian", |p| vec![NOTHING * p[0], p[0]]),
-    ("herschel-bulkley", "power-law", |p| vec![NOTHING * p[0], p[0], p[1]]),
-    ("herschel-bulkley", "bingham", |p| vec![p[0], p[1], 1.0]),
-    ("sisko", "power-law", |p| vec![NOTHING * p[0], p[0], p[1]]),
-    ("sisko", "newtonian", |p| vec![p[0], NOTHING * p[0], 0.5]),
+    (FluidModel::PowerLaw, FluidModel::Newtonian, |p| vec![p[0], 1.0]),
+    (FluidModel::Bingham, FluidModel::Newtonian, |p| vec![NOTHING * p[0], p[0]]),
+    (FluidModel::Casson, FluidModel::Newtonian, |p| vec![NOTHING * p[0], p[0]]),
+    (FluidModel::HerschelBulkley, FluidModel::PowerLaw, |p| vec![NOTHING * p[0], p[0], p[1]]),
+    (FluidModel::HerschelBulkley, FluidModel::Bingham, |p| vec![p[0], p[1], 1.0]),
+    (FluidModel::Sisko, FluidModel::PowerLaw, |p| vec![NOTHING * p[0], p[0], p[1]]),
+    (FluidModel::Sisko, FluidModel::Newtonian, |p| vec![p[0], NOTHING * p[0], 0.5]),
 ];
-
-impl FluidName {
-    /// The fluids that are compared when none is named: all but those that regularise another one for computations.
-    #[must_use]
-    pub fn usual() -> Vec<Self> {
-        Self::ALL.iter().copied().filter(|fluid| !fluid.is_regularisation()).collect()
-    }
-
-    /// Whether it replaces a yield stress by a steep but smooth rise so that computations are easier. It is fitted like any other, and not
-    /// ranked among models of materials.
-    #[must_use]
-    pub fn is_regularisation(self) -> bool {
-        self.0 == "papanastasiou"
-    }
-}
-
-impl fmt::Display for FluidName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.0)
-    }
-}
-
-impl FromStr for FluidName {
-    type Err = MeasuredError;
-
-    fn from_str(text: &str) -> Result<Self, MeasuredError> {
-        Self::ALL.iter().copied().find(|fluid| fluid.0 == text).ok_or_else(|| MeasuredError::Argument {
-            argument: text.to_owned(),
-            valid: "newtonian, power-law, bingham, casson, herschel-bulkley, papanastasiou, eyring, sisko, ellis, cross or carreau-yasuda",
-        })
-    }
-}
 
 /// Fluids to compare, and how.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Request {
     /// The fluids.
-    pub fluids: Vec<FluidName>,
+    pub fluids: Vec<FluidModel>,
     /// The scale of residuals.
     pub weighting: Weighting,
     /// The probability of the intervals.
@@ -244,14 +188,14 @@ pub struct Request {
 impl Request {
     /// A request for some fluids, with errors in proportion to each measured response.
     #[must_use]
-    pub fn of(fluids: Vec<FluidName>) -> Self {
+    pub fn of(fluids: Vec<FluidModel>) -> Self {
         let (weighting, intervals) = (Weighting::Relative, Intervals::Linear);
         Self { fluids, weighting, confidence: 0.95, intervals, noise: Noise::Estimated }
     }
 }
 
 /// Fluids fitted to the same measurements.
-pub type Comparison = comparison::Comparison<FluidName, FittedFluid, FitError>;
+pub type Comparison = comparison::Comparison<FluidModel, FittedFluid, FitError>;
 
 impl Judged for FittedFluid {
     fn aicc(&self) -> Option<f64> {
@@ -308,7 +252,7 @@ pub fn compare_until(measured: &Measured, request: &Request, watch: Watch<'_>) -
     let Request { weighting, confidence, intervals, .. } = *request;
     let options = Options { weighting, confidence, intervals, ..Options::default() };
     let task = Task { measured, data: &data, look, options: &options };
-    let mut comparison = Comparison::of(&request.fluids, watch, |fluid, stop| fluid.fit(&task, &[], stop));
+    let mut comparison = Comparison::of(&request.fluids, watch, |fluid, stop| fitted(fluid, &task, &[], stop));
     comparison.unranked = request.fluids.iter().copied().filter(|fluid| fluid.is_regularisation()).collect();
     if !comparison.interrupted {
         comparison.contain(&task);
@@ -320,7 +264,7 @@ impl Comparison {
     /// Fits again, from there, every fluid that came out worse than one that it contains.
     fn contain(&mut self, task: &Task<'_>) {
         for (larger, smaller, embed) in CONTAINED {
-            let of = |name: &str| self.candidates.iter().position(|candidate| candidate.model.0 == name);
+            let of = |fluid| self.candidates.iter().position(|candidate| candidate.model == fluid);
             let (Some(larger), Some(smaller)) = (of(larger), of(smaller)) else { continue };
             let Ok(contained) = &self.candidates[smaller].fit else { continue };
             let squares = self.candidates[larger].fit.as_ref().map_or(f64::INFINITY, |fit| fit.squares);
@@ -328,7 +272,7 @@ impl Comparison {
                 continue;
             }
             let values: Vec<f64> = contained.parameters.iter().map(|parameter| parameter.value).collect();
-            let again = self.candidates[larger].model.fit(task, &[embed(&values)], &|| false);
+            let again = fitted(self.candidates[larger].model, task, &[embed(&values)], &|| false);
             if let Ok(again) = again
                 && again.squares < squares
             {
@@ -347,7 +291,7 @@ impl Comparison {
             .iter()
             .map(|candidate| match &candidate.fit {
                 Ok(fit) => json!({
-                    "fluid": candidate.model.0,
+                    "fluid": candidate.model.name(),
                     "is_regularisation": candidate.model.is_regularisation(),
                     "parameters": serde_json::to_value(&fit.parameters).unwrap_or_default(),
                     "rms_residual": rms(&fit.residuals),
@@ -356,7 +300,7 @@ impl Comparison {
                     "autocorrelation": serde_json::to_value(fit.autocorrelation).unwrap_or_default(),
                     "converged": fit.outcome.is_converged(),
                 }),
-                Err(error) => json!({ "fluid": candidate.model.0, "failure": error.to_string() }),
+                Err(error) => json!({ "fluid": candidate.model.name(), "failure": error.to_string() }),
             })
             .collect();
         let summary = json!({
@@ -364,8 +308,8 @@ impl Comparison {
             "flow": measured.flow.kind().name(),
             "rows": measured.rows().len(),
             "read": measured.notes,
-            "best_by_aicc": self.best().map(|(fluid, _)| fluid.0),
-            "not_told_apart_from_the_best": self.rivals().map(|(fluid, _)| fluid.0).collect::<Vec<_>>(),
+            "best_by_aicc": self.best().map(|(fluid, _)| fluid.name()),
+            "not_told_apart_from_the_best": self.rivals().map(|(fluid, _)| fluid.name()).collect::<Vec<_>>(),
             "interrupted": self.interrupted,
             "fluids": fluids,
         });
@@ -386,7 +330,7 @@ impl Comparison {
             let aicc = fit.criteria.aicc.map_or_else(|| "-".to_owned(), |x| format!("{x:.1}"));
             let (count, residual) = (fit.parameters.len(), 100.0 * rms(&fit.residuals));
             let most = 100.0 * largest(&fit.residuals);
-            let _ = write!(text, "{:<18}{count:>3}{residual:>12.2} %{most:>10.2} %{aicc:>10}", fluid.0);
+            let _ = write!(text, "{:<18}{count:>3}{residual:>12.2} %{most:>10.2} %{aicc:>10}", fluid.name());
             let _ = writeln!(text, "  {}", fit.outcome.reason());
         }
         text.push('\n');
@@ -408,7 +352,7 @@ impl Comparison {
             return "No fluid has an AICc: that takes at least three rows more than parameters.\n".to_owned();
         };
         let mut text = format!("{best} has the least AICc.\n");
-        let rivals: Vec<&str> = self.rivals().map(|(fluid, _)| fluid.0).collect();
+        let rivals: Vec<&str> = self.rivals().map(|(fluid, _)| fluid.name()).collect();
         if !rivals.is_empty() {
             let _ = writeln!(text, "These data do not tell it from {}.", rivals.join(", "));
         }

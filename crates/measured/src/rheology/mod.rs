@@ -25,9 +25,9 @@ mod recovery_output;
 mod sweeps;
 mod table;
 
-pub use fluids::{Comparison, FittedFluid, FluidName, Request, compare, compare_until};
+pub use fluids::{Comparison, FittedFluid, Request, compare, compare_until};
 pub use kind::{Answer, Answering, Flow, FlowKind};
-pub use piola_fit::fluids::{Intervals, State, Weighting};
+pub use piola_fit::fluids::{FluidModel, Intervals, State, Weighting};
 pub use piola_viscometry::recover::{Noise, Rise};
 pub use recovery::{
     Correction, Function, Point, RecoveredCurve, Recovery, RecoveryRequest, recover, recover_without_ends,

@@ -12,8 +12,9 @@ mod spelling;
 mod text;
 
 pub(crate) use heading::{Heading, plain};
-pub(crate) use spelling::{spelled, units_of, unknown};
-pub(crate) use text::read;
+pub use spelling::spelled;
+pub(crate) use spelling::{units_of, unknown};
+pub use text::read;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 

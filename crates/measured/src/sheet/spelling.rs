@@ -43,7 +43,7 @@ const WHOLE: [(&str, &str); 36] = [
 ];
 
 /// The unit of a text in one of its usual spellings: `mPa.s`, `mPas`, `s-1`, `1/s`, `dyn/cm2`, `lbf/100 ft²`, `µNm`.
-pub(crate) fn spelled(text: &str) -> Option<Unit> {
+pub fn spelled(text: &str) -> Option<Unit> {
     parsed(text).ok()
 }
 

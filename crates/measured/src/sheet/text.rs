@@ -9,7 +9,7 @@ use crate::MeasuredError;
 const LARGEST: u64 = 64 << 20;
 
 /// The text of a file: UTF-8, UTF-16 with its mark, or letters and signs of Windows-1252, as spreadsheets write them.
-pub(crate) fn read(path: &Path) -> Result<String, MeasuredError> {
+pub fn read(path: &Path) -> Result<String, MeasuredError> {
     let mut bytes = Vec::new();
     std::fs::File::open(path)
         .and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))

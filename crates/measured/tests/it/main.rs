@@ -4,10 +4,7 @@ mod cards;
 mod figures;
 mod fits;
 mod fitting;
-mod forward;
 mod layouts;
 mod newtonian;
 mod rheology;
 mod sides;
-#[cfg(feature = "specimens")]
-mod specimen;

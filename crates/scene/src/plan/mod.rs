@@ -28,7 +28,7 @@ use crate::model::{ReferenceKind, Scene, System};
 ///     revolutions = 3
 /// ");
 /// let plan = Plan::of(&Scene::from_document(&document)?);
-/// assert_eq!(plan.method.to_string(), "dormand-prince-853");
+/// assert_eq!(plan.method.to_string(), "nystrom-1210");
 /// assert!(plan.reason.contains("eccentricity"));
 /// # Ok::<(), piola_scene::SceneError>(())
 /// ```

@@ -50,7 +50,7 @@ fn method_follows_from_the_forces() {
     assert_eq!(plan(&relativistic).method.to_string(), "gauss-legendre-8");
     assert_eq!(plan(TOP).method.to_string(), "verner-98");
     assert_eq!(plan(&format!("{TOP}[integrator]\nstep = '1 ms'\n")).method.to_string(), "gauss-legendre-8");
-    assert_eq!(plan(ORBIT).method.to_string(), "dormand-prince-853");
+    assert_eq!(plan(ORBIT).method.to_string(), "nystrom-1210");
     assert_eq!(plan(&replaced(ORBIT, "eccentricity = 0.5", "eccentricity = 0.0")).method.to_string(), "composition-8");
 }
 

@@ -3,12 +3,12 @@
 use piola_document::units::Dimension;
 use piola_specimens::homogeneous::{Control, Controls};
 
-use super::quantity::{parts, value};
-use crate::MeasuredError;
+use crate::quantity::{parts, value};
+use crate::ForwardError;
 
 /// A homogeneous test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Test {
+pub(crate) enum Test {
     Uniaxial,
     Equibiaxial,
     Biaxial,
@@ -37,14 +37,14 @@ enum Kind {
 
 /// A prescribed quantity: its name as written, and the components that have its value.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Prescribed {
-    pub(super) name: String,
+pub(crate) struct Prescribed {
+    pub(crate) name: String,
     kind: Kind,
     components: Vec<(usize, usize)>,
 }
 
 impl Test {
-    pub(super) fn named(name: &str) -> Option<Self> {
+    pub(crate) fn named(name: &str) -> Option<Self> {
         Some(match name {
             "uniaxial" => Self::Uniaxial,
             "equibiaxial" => Self::Equibiaxial,
@@ -58,7 +58,7 @@ impl Test {
     }
 
     /// What is prescribed unless the path or a condition says otherwise: free sides, and nothing sheared.
-    pub(super) const fn components(self) -> [[Control; 3]; 3] {
+    pub(crate) const fn components(self) -> [[Control; 3]; 3] {
         const O: Control = Control::HELD;
         let second = if matches!(self, Self::Planar | Self::SimpleShear) { O } else { Control::FREE };
         let first = if matches!(self, Self::SimpleShear) { O } else { Control::FREE };
@@ -66,7 +66,7 @@ impl Test {
     }
 
     /// What is shown in the figure.
-    pub(super) const fn shown(self) -> &'static [&'static str] {
+    pub(crate) const fn shown(self) -> &'static [&'static str] {
         match self {
             Self::Uniaxial => &["P11", "T11", "F22", "energy"],
             Self::Equibiaxial => &["P11", "T11", "F33", "energy"],
@@ -78,7 +78,7 @@ impl Test {
     }
 
     /// A quantity of this test by its name.
-    pub(super) fn prescribed(self, name: &str) -> Option<Prescribed> {
+    pub(crate) fn prescribed(self, name: &str) -> Option<Prescribed> {
         let first: &[(usize, usize)] = if self == Self::Equibiaxial { &[(0, 0), (1, 1)] } else { &[(0, 0)] };
         let is_pulled = matches!(self, Self::Uniaxial | Self::Equibiaxial | Self::Biaxial | Self::Planar);
         let (kind, components): (_, &[_]) = match (name, self) {
@@ -98,7 +98,7 @@ impl Test {
     }
 
     /// The names of this test, for who wrote another.
-    pub(super) const fn names(self) -> &'static str {
+    pub(crate) const fn names(self) -> &'static str {
         match self {
             Self::Uniaxial | Self::Equibiaxial | Self::Planar => {
                 "stretch, strain, stress, true_stress, or a component F11 to F33, P11 to P33, T11 to T33"
@@ -136,12 +136,12 @@ impl Prescribed {
     }
 
     /// The SI unit of its value.
-    pub(super) const fn unit(&self) -> &'static str {
+    pub(crate) const fn unit(&self) -> &'static str {
         if matches!(self.kind, Kind::Gradient | Kind::Strain | Kind::Volume) { "" } else { "Pa" }
     }
 
     /// One value.
-    pub(super) fn value(&self, text: &str) -> Result<f64, MeasuredError> {
+    pub(crate) fn value(&self, text: &str) -> Result<f64, ForwardError> {
         value(text, self.dimension()).filter(|x| self.least() < *x).ok_or_else(|| self.refused(text))
     }
 
@@ -156,22 +156,22 @@ impl Prescribed {
     }
 
     /// The two ends of a path, as `1..3` or `0..2 MPa`.
-    pub(super) fn range(&self, text: &str) -> Result<[f64; 2], MeasuredError> {
+    pub(crate) fn range(&self, text: &str) -> Result<[f64; 2], ForwardError> {
         let above = |ends: &[f64; 2]| ends.iter().all(|x| self.least() < *x);
         range(text, self.dimension()).filter(above).ok_or_else(|| self.refused(text))
     }
 
-    fn refused(&self, text: &str) -> MeasuredError {
+    fn refused(&self, text: &str) -> ForwardError {
         let valid = if self.dimension() == Dimension::PRESSURE {
             "stresses with a unit, a path as 0..2 MPa"
         } else {
             "numbers without a unit or in %, a path as 1..3; stretches and volumes are above 0, strains above -100 %"
         };
-        MeasuredError::Argument { argument: format!("{}={text}", self.name), valid }
+        ForwardError::Argument { argument: format!("{}={text}", self.name), valid }
     }
 
     /// Prescribes it.
-    pub(super) fn apply(&self, value: f64, components: &mut [[Control; 3]; 3]) {
+    pub(crate) fn apply(&self, value: f64, components: &mut [[Control; 3]; 3]) {
         for &(i, j) in &self.components {
             let one = if i == j { 1.0 } else { 0.0 };
             components[i][j] = match self.kind {
@@ -187,13 +187,13 @@ impl Prescribed {
     }
 
     /// Whether two prescribe the same component.
-    pub(super) fn meets(&self, other: &Self) -> bool {
+    pub(crate) fn meets(&self, other: &Self) -> bool {
         self.components.iter().any(|component| other.components.contains(component))
     }
 }
 
 /// Two numbers; the unit of the last is that of the first too, unless it has its own.
-pub(super) fn range(text: &str, dimension: Dimension) -> Option<[f64; 2]> {
+pub(crate) fn range(text: &str, dimension: Dimension) -> Option<[f64; 2]> {
     let (from, to) = text.split_once("..")?;
     let last = value(to, dimension)?;
     let (_, unit) = parts(to)?;
@@ -205,7 +205,7 @@ pub(super) fn range(text: &str, dimension: Dimension) -> Option<[f64; 2]> {
 }
 
 /// The controls at a value of the path, with all other conditions.
-pub(super) fn controls(
+pub(crate) fn controls(
     test: Test,
     path: (&Prescribed, f64),
     held: &[(Prescribed, f64)],

@@ -6,8 +6,8 @@ use piola_document::units::{Dimension, Quantity};
 use piola_fluids::AnyFluid;
 use serde_json::{Map, Value};
 
-use crate::MeasuredError;
-use crate::sheet::read;
+use crate::ForwardError;
+use piola_measured::internal::{read, written_fluid};
 
 const VISCOSITY: Dimension = Dimension { length: -1, mass: 1, time: -1, angle: 0 };
 
@@ -28,18 +28,18 @@ const VALID: &str = "NAME:PARAMETER=VALUE,…, as bingham:yield_stress=3 Pa,plas
 /// A fluid, as `bingham:yield_stress=3,plastic_viscosity=0.05`, a JSON file, or a fit's `summary.json` with `#bingham`.
 ///
 /// # Errors
-/// [`MeasuredError::Argument`] for names, parameters or units that are not those of a fluid; [`MeasuredError::Unreadable`] and the like for
+/// [`ForwardError::Argument`] for names, parameters or units that are not those of a fluid; [`ForwardError::Unreadable`] and the like for
 /// files.
 ///
 /// # Example
 /// ```
 /// use piola_fluids::ViscometricFluid;
-/// let mud = piola_measured::forward::fluid("bingham:yield_stress=3 Pa,plastic_viscosity=500 mPa s")?;
+/// let mud = piola_forward::fluid("bingham:yield_stress=3 Pa,plastic_viscosity=500 mPa s")?;
 /// assert_eq!(mud.shear_stress(4.0), 5.0);
-/// assert!(piola_measured::forward::fluid("bingham:yield_stress=3 m").is_err());
-/// # Ok::<(), piola_measured::MeasuredError>(())
+/// assert!(piola_forward::fluid("bingham:yield_stress=3 m").is_err());
+/// # Ok::<(), piola_forward::ForwardError>(())
 /// ```
-pub fn fluid(text: &str) -> Result<AnyFluid, MeasuredError> {
+pub fn fluid(text: &str) -> Result<AnyFluid, ForwardError> {
     let (path, name) = text.split_once('#').map_or((text, None), |(path, name)| (path, Some(name)));
     if Path::new(path).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {
         return of_file(Path::new(path), name);
@@ -50,11 +50,11 @@ pub fn fluid(text: &str) -> Result<AnyFluid, MeasuredError> {
         let Some((parameter, value)) = part.split_once('=') else { return Err(refused(text)) };
         let parameter = parameter.trim().replace('-', "_");
         if fields.contains_key(&parameter) {
-            return Err(MeasuredError::Argument { argument: part.trim().to_owned(), valid: "each parameter once" });
+            return Err(ForwardError::Argument { argument: part.trim().to_owned(), valid: "each parameter once" });
         }
         let quantity: Quantity = value.trim().parse().map_err(|_| refused(part))?;
         let fits = quantity.dimension().is_none_or(|found| dimension(&parameter) == Some(found));
-        let value = quantity.to_si().ok().filter(|_| fits).ok_or_else(|| MeasuredError::Argument {
+        let value = quantity.to_si().ok().filter(|_| fits).ok_or_else(|| ForwardError::Argument {
             argument: part.trim().to_owned(),
             valid: "a number in SI, or with a unit of this parameter",
         })?;
@@ -63,25 +63,25 @@ pub fn fluid(text: &str) -> Result<AnyFluid, MeasuredError> {
     made(name, fields, text)
 }
 
-fn refused(text: &str) -> MeasuredError {
-    MeasuredError::Argument { argument: text.trim().to_owned(), valid: VALID }
+fn refused(text: &str) -> ForwardError {
+    ForwardError::Argument { argument: text.trim().to_owned(), valid: VALID }
 }
 
 /// The fluid of a name and its parameters.
-fn made(name: &str, mut fields: Map<String, Value>, text: &str) -> Result<AnyFluid, MeasuredError> {
+fn made(name: &str, mut fields: Map<String, Value>, text: &str) -> Result<AnyFluid, ForwardError> {
     fields.insert("fluid".to_owned(), name.trim().replace('-', "_").into());
-    serde_json::from_value(Value::Object(fields))
-        .map_err(|error| MeasuredError::Fluid { argument: text.to_owned(), cause: error.to_string() })
+    written_fluid(Value::Object(fields))
+        .map_err(|error| ForwardError::Fluid { argument: text.to_owned(), cause: error.to_string() })
 }
 
 /// A fluid that was written, or one of a fit: that of the name, or the best.
-fn of_file(path: &Path, name: Option<&str>) -> Result<AnyFluid, MeasuredError> {
+fn of_file(path: &Path, name: Option<&str>) -> Result<AnyFluid, ForwardError> {
     let text = read(path)?;
     let shown = path.display().to_string();
-    let wrong = |cause: String| MeasuredError::Fluid { argument: shown.clone(), cause };
+    let wrong = |cause: String| ForwardError::Fluid { argument: shown.clone(), cause };
     let value: Value = serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
     let Some(fluids) = value["fluids"].as_array() else {
-        return serde_json::from_value(value).map_err(|error| wrong(error.to_string()));
+        return written_fluid(value).map_err(|error| wrong(error.to_string()));
     };
     let Some(name) = name.or_else(|| value["best_by_aicc"].as_str()) else {
         return Err(wrong("no fluid of this fit is the best; name one, as summary.json#bingham".to_owned()));

@@ -6,12 +6,11 @@ use piola_document::units::{Dimension, Quantity};
 use piola_fit::sides::SidesModel;
 use piola_fit::solids::{AnyModel, Model as _, Parameter};
 use piola_laws::rubber::AnyRubber;
-use piola_solids::AnySolid;
 use piola_solids::volumetric::SimoTaylor;
+use piola_measured::internal::{read, spelled, written_solid};
 use serde_json::Value;
 
-use crate::MeasuredError;
-use crate::sheet::{read, spelled};
+use crate::ForwardError;
 
 const VALID: &str = "NAME:PARAMETER=VALUE,…, as mooney-rivlin:c10=0.3 MPa,c01=50 kPa or ogden:1:mu1=0.6 MPa,alpha1=2; or a JSON \
                      file of a solid, or the summary.json of a fit, with #NAME for one of its laws";
@@ -22,25 +21,25 @@ const VALID: &str = "NAME:PARAMETER=VALUE,…, as mooney-rivlin:c10=0.3 MPa,c01=
 /// given: then its energy is that of F/J^(1/3) with U(J) = ¼ K (J² − 1 − 2 ln J) added.
 ///
 /// # Errors
-/// [`MeasuredError::Solid`] and [`MeasuredError::Argument`] for names, parameters or units that are not those of a solid;
-/// [`MeasuredError::Unreadable`] and the like for files.
+/// [`ForwardError::Solid`] and [`ForwardError::Argument`] for names, parameters or units that are not those of a solid;
+/// [`ForwardError::Unreadable`] and the like for files.
 ///
 /// # Example
 /// ```
 /// use piola_laws::rubber::AnyRubber;
 /// use piola_solids::{IncompressibleSolid, isochoric::MooneyRivlin};
-/// let rubber = piola_measured::forward::solid("mooney-rivlin:c10=0.3 MPa,c01=50 kPa", None)?;
+/// let rubber = piola_forward::solid("mooney-rivlin:c10=0.3 MPa,c01=50 kPa", None)?;
 /// assert_eq!(rubber, AnyRubber::from(IncompressibleSolid::new(MooneyRivlin::new(3e5, 5e4)?)));
-/// assert!(piola_measured::forward::solid("neo-hookean:mu=3 m", None).is_err());
+/// assert!(piola_forward::solid("neo-hookean:mu=3 m", None).is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn solid(text: &str, bulk_modulus: Option<&str>) -> Result<AnyRubber, MeasuredError> {
+pub fn solid(text: &str, bulk_modulus: Option<&str>) -> Result<AnyRubber, ForwardError> {
     let bulk = bulk_modulus.map(|text| pressure(text).ok_or_else(|| wrong_bulk(text))).transpose()?;
     let (path, name) = text.split_once('#').map_or((text, None), |(path, name)| (path, Some(name)));
     if Path::new(path).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {
         return of_file(Path::new(path), name, bulk);
     }
-    let refused = || MeasuredError::Argument { argument: text.trim().to_owned(), valid: VALID };
+    let refused = || ForwardError::Argument { argument: text.trim().to_owned(), valid: VALID };
     // The name of a series has a colon of its own.
     let head = text.split('=').next().unwrap_or(text);
     let (name, _) = head.rsplit_once(':').ok_or_else(refused)?;
@@ -55,9 +54,9 @@ pub fn solid(text: &str, bulk_modulus: Option<&str>) -> Result<AnyRubber, Measur
             wrong(text, format!("{} has no parameter {parameter}; it has {}", name.trim(), names.join(", ")))
         })?;
         if values[index].is_some() {
-            return Err(MeasuredError::Argument { argument: part.trim().to_owned(), valid: "each parameter once" });
+            return Err(ForwardError::Argument { argument: part.trim().to_owned(), valid: "each parameter once" });
         }
-        values[index] = Some(value_of(&parameters[index], value).ok_or_else(|| MeasuredError::Argument {
+        values[index] = Some(value_of(&parameters[index], value).ok_or_else(|| ForwardError::Argument {
             argument: part.trim().to_owned(),
             valid: "a number in SI, or with a unit of this parameter",
         })?);
@@ -74,16 +73,16 @@ fn same(name: &str, spelling: &str) -> bool {
     name.eq_ignore_ascii_case(spelling)
 }
 
-fn wrong(text: &str, cause: String) -> MeasuredError {
-    MeasuredError::Solid { argument: text.trim().to_owned(), cause }
+fn wrong(text: &str, cause: String) -> ForwardError {
+    ForwardError::Solid { argument: text.trim().to_owned(), cause }
 }
 
-fn wrong_bulk(text: &str) -> MeasuredError {
-    MeasuredError::Argument { argument: format!("bulk modulus {text}"), valid: "a pressure above zero, as 1.5 GPa" }
+fn wrong_bulk(text: &str) -> ForwardError {
+    ForwardError::Argument { argument: format!("bulk modulus {text}"), valid: "a pressure above zero, as 1.5 GPa" }
 }
 
 /// Of a stress, in Pa, with or without its unit.
-pub(super) fn pressure(text: &str) -> Option<f64> {
+pub(crate) fn pressure(text: &str) -> Option<f64> {
     let quantity: Quantity = text.trim().parse().ok()?;
     let fits = quantity.dimension().is_none_or(|found| found == Dimension::PRESSURE);
     quantity.to_si().ok().filter(|_| fits)
@@ -101,7 +100,7 @@ enum Named {
 }
 
 impl Named {
-    fn parse(name: &str) -> Result<Self, MeasuredError> {
+    fn parse(name: &str) -> Result<Self, ForwardError> {
         match name.parse() {
             Ok(model) => Ok(Self::Sides(model)),
             // One of these names with a wrong number of terms.
@@ -125,7 +124,7 @@ impl Named {
 }
 
 /// The law of a model and its parameters in SI.
-fn made(model: Named, values: &[f64], bulk: Option<f64>) -> Result<AnyRubber, MeasuredError> {
+fn made(model: Named, values: &[f64], bulk: Option<f64>) -> Result<AnyRubber, ForwardError> {
     let model = match model {
         Named::Rubber(model) => model,
         Named::Sides(model) => return of_sides(model, values, bulk),
@@ -140,7 +139,7 @@ fn made(model: Named, values: &[f64], bulk: Option<f64>) -> Result<AnyRubber, Me
 }
 
 /// A foam has its own law of volumes; fibres need a bulk modulus.
-fn of_sides(model: SidesModel, values: &[f64], bulk: Option<f64>) -> Result<AnyRubber, MeasuredError> {
+fn of_sides(model: SidesModel, values: &[f64], bulk: Option<f64>) -> Result<AnyRubber, ForwardError> {
     let name = model.to_string();
     match (model, bulk) {
         (SidesModel::Hyperfoam(_), None) => Ok(model.law(values, 0.0)?),
@@ -153,7 +152,7 @@ fn of_sides(model: SidesModel, values: &[f64], bulk: Option<f64>) -> Result<AnyR
 }
 
 /// A solid that was written, or one of a fit: that of the name, or the best.
-fn of_file(path: &Path, name: Option<&str>, bulk: Option<f64>) -> Result<AnyRubber, MeasuredError> {
+fn of_file(path: &Path, name: Option<&str>, bulk: Option<f64>) -> Result<AnyRubber, ForwardError> {
     let text = read(path)?;
     let shown = path.display().to_string();
     let wrong = |cause: String| wrong(&shown, cause);
@@ -162,14 +161,7 @@ fn of_file(path: &Path, name: Option<&str>, bulk: Option<f64>) -> Result<AnyRubb
         if bulk.is_some() {
             return Err(wrong("a solid of a file has its own law of volumes; leave out the bulk modulus".to_owned()));
         }
-        // The name decides whose parameters follow, so that a refusal tells what is wrong with them.
-        let is_own = matches!(value["law"].as_str(), Some("rubber" | "extended_tube" | "hyperfoam"));
-        let read = if is_own {
-            serde_json::from_value::<AnyRubber>(value)
-        } else {
-            serde_json::from_value::<AnySolid>(value).map(AnyRubber::from)
-        };
-        return read.map_err(|error| wrong(error.to_string()));
+        return written_solid(value).map_err(|error| wrong(error.to_string()));
     };
     let Some(name) = name.or_else(|| value["best_by_aicc"].as_str()) else {
         return Err(wrong("no law of this fit is the best; name one, as summary.json#yeoh".to_owned()));

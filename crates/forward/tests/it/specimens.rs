@@ -2,11 +2,11 @@
 
 use core::f64::consts::PI;
 
-use piola_measured::MeasuredError;
-use piola_measured::forward::{LoadedSpecimen, SpecimenRequest, solid, specimen};
+use piola_forward::ForwardError;
+use piola_forward::{LoadedSpecimen, SpecimenRequest, solid, specimen};
 use piola_testkit::{Tol, assert_close};
 
-use crate::newtonian::written;
+use crate::written;
 
 const SOLVED: Tol = Tol::stated(1e-11, "Newton's iteration ends at 1e-12 of the tangent");
 const MOONEY: &str = "mooney-rivlin:c10=0.3 MPa,c01=50 kPa";
@@ -152,7 +152,7 @@ fn what_does_not_go_together_is_refused_by_name() {
     many.points = 1;
     assert!(specimen(&many).is_err_and(|error| error.to_string().contains("from 2 to 100000 points")));
     let torsion = request("torsion", MOONEY, ("twist", "0..1 rad/m"), &[]);
-    assert!(matches!(specimen(&torsion), Err(MeasuredError::MissingSize { .. })));
+    assert!(matches!(specimen(&torsion), Err(ForwardError::MissingSize { .. })));
     let ogden =
         request("torsion", "ogden:1:mu1=1 MPa,alpha1=2", ("twist", "0..1 rad/m"), &[]).with_size("radius", "1 mm");
     assert!(specimen(&ogden).is_err_and(|error| error.to_string().contains("without a bulk modulus")));

@@ -5,7 +5,7 @@ use core::fmt::Write as _;
 use piola_charts::{Folder, Panel, Written, figure};
 use serde_json::json;
 
-use super::flow::{Answered, SolvedFlow};
+use crate::flow::{Answered, SolvedFlow};
 
 impl SolvedFlow {
     /// A number of the flow by its name.
@@ -74,7 +74,7 @@ impl SolvedFlow {
     fn figure(&self) -> String {
         let ([velocity, unit], position) = (self.velocity(), self.position());
         // Lengths of instruments are millimetres.
-        let line = |of: &dyn Fn(&super::ProfilePoint) -> f64| -> Vec<(f64, f64)> {
+        let line = |of: &dyn Fn(&crate::ProfilePoint) -> f64| -> Vec<(f64, f64)> {
             self.profile.iter().map(|point| (1e3 * point.position, of(point))).collect()
         };
         let panel = |name: &str, unit: &str, line: Vec<(f64, f64)>| Panel {

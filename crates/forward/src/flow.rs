@@ -6,8 +6,8 @@ use piola_viscometry::{
     Annulus, Channel, ConeAndPlate, Couette, Estimate, FallingFilm, ParallelPlates, Poiseuille, ViscometryError,
 };
 
-use super::quantity::value;
-use crate::MeasuredError;
+use crate::quantity::value;
+use crate::ForwardError;
 
 /// g, m/s².
 const GRAVITY: f64 = 9.806_65;
@@ -91,11 +91,11 @@ pub struct SolvedFlow {
 struct Reader<'r>(&'r FlowRequest);
 
 impl Reader<'_> {
-    fn size(&self, name: &str, dimension: Dimension) -> Result<f64, MeasuredError> {
+    fn size(&self, name: &str, dimension: Dimension) -> Result<f64, ForwardError> {
         let Some((_, text)) = self.0.sizes.iter().find(|(other, _)| other == name) else {
-            return Err(MeasuredError::MissingSize { name: name.to_owned() });
+            return Err(ForwardError::MissingSize { name: name.to_owned() });
         };
-        value(text, dimension).ok_or_else(|| MeasuredError::Argument {
+        value(text, dimension).ok_or_else(|| ForwardError::Argument {
             argument: format!("{name} = {text}"),
             valid: "a number with a unit of this size, as 2 mm, 2 deg or 1000 kg/m^3",
         })
@@ -107,9 +107,9 @@ impl Reader<'_> {
         drive: (&str, Dimension),
         answer: (&str, Dimension),
         valid: &'static str,
-    ) -> Result<(bool, f64), MeasuredError> {
+    ) -> Result<(bool, f64), ForwardError> {
         let (name, text) = &self.0.given;
-        let wrong = || MeasuredError::Argument { argument: format!("{name} = {text}"), valid };
+        let wrong = || ForwardError::Argument { argument: format!("{name} = {text}"), valid };
         let (is_drive, dimension) = match name.as_str() {
             name if name == drive.0 => (true, drive.1),
             name if name == answer.0 => (false, answer.1),
@@ -118,9 +118,9 @@ impl Reader<'_> {
         Ok((is_drive, value(text, dimension).ok_or_else(wrong)?))
     }
 
-    fn allow(&self, names: &[&str]) -> Result<(), MeasuredError> {
+    fn allow(&self, names: &[&str]) -> Result<(), ForwardError> {
         match self.0.sizes.iter().find(|(name, _)| !names.contains(&name.as_str())) {
-            Some((name, text)) => Err(MeasuredError::Argument {
+            Some((name, text)) => Err(ForwardError::Argument {
                 argument: format!("{name} = {text}"),
                 valid: "only the sizes of this flow",
             }),
@@ -154,21 +154,21 @@ fn profile(
 /// Solves a flow.
 ///
 /// # Errors
-/// [`MeasuredError::Argument`] for flows, sizes, quantities and units that do not go together, [`MeasuredError::MissingSize`];
-/// [`MeasuredError::Viscometry`] for what the flow or the fluid refuses.
+/// [`ForwardError::Argument`] for flows, sizes, quantities and units that do not go together, [`ForwardError::MissingSize`];
+/// [`ForwardError::Viscometry`] for what the flow or the fluid refuses.
 ///
 /// # Example
 /// ```
-/// use piola_measured::forward::{FlowRequest, fluid, solve};
+/// use piola_forward::{FlowRequest, fluid, solve};
 /// // Water in a pipe of 1 mm: Q = π R⁴ c/(8 μ).
 /// let water = fluid("newtonian:viscosity_coefficient=1 mPa s")?;
 /// let request = FlowRequest::new("pipe", water, &[("radius", "1 mm")], ("discharge", "1 mL/s"));
 /// let pipe = solve(&request)?;
 /// let gradient = pipe.answer("pressure_gradient").expect("there").value;
 /// assert!((gradient / (8e-3 * 1e-6 / (core::f64::consts::PI * 1e-12)) - 1.0).abs() < 1e-12);
-/// # Ok::<(), piola_measured::MeasuredError>(())
+/// # Ok::<(), piola_forward::ForwardError>(())
 /// ```
-pub fn solve(request: &FlowRequest) -> Result<SolvedFlow, MeasuredError> {
+pub fn solve(request: &FlowRequest) -> Result<SolvedFlow, ForwardError> {
     let (answers, profile) = match request.flow.as_str() {
         "pipe" => pipe(request)?,
         "channel" => channel(request)?,
@@ -178,7 +178,7 @@ pub fn solve(request: &FlowRequest) -> Result<SolvedFlow, MeasuredError> {
         "cone" => cone(request)?,
         "film" => film(request)?,
         other => {
-            return Err(MeasuredError::Argument {
+            return Err(ForwardError::Argument {
                 argument: other.to_owned(),
                 valid: "pipe, channel, annulus, couette, plates, cone or film",
             });
@@ -187,7 +187,7 @@ pub fn solve(request: &FlowRequest) -> Result<SolvedFlow, MeasuredError> {
     Ok(SolvedFlow { flow: request.flow.clone(), fluid: request.fluid.clone(), answers, profile })
 }
 
-type Solved = Result<(Vec<Answered>, Vec<ProfilePoint>), MeasuredError>;
+type Solved = Result<(Vec<Answered>, Vec<ProfilePoint>), ForwardError>;
 
 fn pipe(request: &FlowRequest) -> Solved {
     let (reader, fluid) = (Reader(request), &request.fluid);

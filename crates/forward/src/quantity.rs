@@ -1,18 +1,17 @@
 //! Numbers with units, as people write them in arguments.
 
 use piola_document::units::{Dimension, Unit};
-
-use crate::sheet::spelled;
+use piola_measured::internal::spelled;
 
 /// A number with a unit of this dimension, in SI; without a unit where there is no dimension.
-pub(super) fn value(text: &str, dimension: Dimension) -> Option<f64> {
+pub(crate) fn value(text: &str, dimension: Dimension) -> Option<f64> {
     let (number, unit) = parts(text)?;
     let unit = if unit.is_empty() { Unit::ONE } else { spelled(unit)? };
     (unit.dimension == dimension).then(|| unit.to_si(number)).filter(|x| x.is_finite())
 }
 
 /// A number, and the text after it.
-pub(super) fn parts(text: &str) -> Option<(f64, &str)> {
+pub(crate) fn parts(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
     let is_number = |end: usize| text.is_char_boundary(end) && text[..end].trim_end().parse::<f64>().is_ok();
     let end = (1..=text.len()).rev().find(|&end| is_number(end))?;

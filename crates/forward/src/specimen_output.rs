@@ -5,7 +5,7 @@ use core::fmt::Write as _;
 use piola_charts::{Folder, Panel, Written, figure};
 use serde_json::json;
 
-use super::specimen::LoadedSpecimen;
+use crate::specimen::LoadedSpecimen;
 
 /// Rows of the table for a reader, and points in a figure.
 const ROWS: usize = 11;

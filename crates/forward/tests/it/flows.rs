@@ -2,11 +2,10 @@
 
 use core::f64::consts::PI;
 
-use piola_measured::forward::{FlowRequest, SolvedFlow, fluid, solve};
+use piola_forward::{FlowRequest, SolvedFlow, fluid, solve};
 use piola_testkit::{Tol, assert_close};
 
-use crate::newtonian::{numbers, written};
-use crate::rheology::csv;
+use crate::written;
 
 fn solved(flow: &str, text: &str, sizes: &[(&str, &str)], given: (&str, &str)) -> SolvedFlow {
     let fluid = fluid(text).unwrap_or_else(|error| panic!("{error}"));
@@ -75,7 +74,11 @@ fn a_flow_writes_its_profile_and_its_figure() {
     assert_close("plug", &[value(&pipe, "plug_radius")], &[3e-3], Tol::ulps(8.0));
     let files = ["profile.csv", "profile.svg", "summary.json"];
     let [csv, svg, json] = written("forward", files, |folder| pipe.write(folder));
-    let profile: Vec<[f64; 4]> = numbers(&csv);
+    let fields = |line: &str| -> [f64; 4] {
+        let all: Vec<f64> = line.split(',').map(|field| field.parse().unwrap_or_else(|_| panic!("{line}"))).collect();
+        all.try_into().unwrap_or_else(|_| panic!("{line}"))
+    };
+    let profile: Vec<[f64; 4]> = csv.lines().skip(1).map(fields).collect();
     assert_eq!(profile.len(), 201);
     // At the wall nothing moves and the stress is ½ c R; the plug moves as one.
     assert!(profile[200][1].abs() < 1e-14 && (profile[200][2].abs() - 10.0).abs() < 1e-12);
@@ -93,7 +96,8 @@ fn a_flow_writes_its_profile_and_its_figure() {
 fn the_best_fluid_of_a_fit_flows() -> Result<(), Box<dyn std::error::Error>> {
     use piola_measured::rheology::{FlowKind, Measured, Request, compare};
     let rows = (0..12).map(|i| 0.5_f64 * 1.7_f64.powi(i)).map(|k| [k, 2.0 + 0.5 * k]);
-    let text = csv("shear_rate,shear_stress", rows);
+    let lines = rows.map(|[rate, stress]| format!("{rate:?},{stress:?}\n"));
+    let text = format!("shear_rate,shear_stress\n{}", lines.collect::<String>());
     let measured = Measured::parse("mud.csv", &text, FlowKind::Curve, &[])?;
     let comparison = compare(&measured, &Request::of(vec!["bingham".parse()?, "newtonian".parse()?]))?;
     let path = std::env::temp_dir().join(format!("piola-forward-{}.json", std::process::id()));

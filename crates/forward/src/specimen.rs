@@ -10,9 +10,9 @@ use piola_solids::{AnySolid, Hyperelastic as _};
 use piola_solutions::loads::{Ends, Torsion, Tube};
 use piola_specimens::homogeneous::{HomogeneousState, equilibrium};
 
-use super::controls::{Prescribed, Test, controls, range};
-use super::quantity::value;
-use crate::MeasuredError;
+use crate::controls::{Prescribed, Test, controls, range};
+use crate::quantity::value;
+use crate::ForwardError;
 
 /// The least and the greatest number of points of a path.
 const POINTS: core::ops::RangeInclusive<u32> = 2..=100_000;
@@ -71,7 +71,7 @@ pub struct LoadedSpecimen {
     pub rows: Vec<Vec<f64>>,
     /// Where the path ended early: the value at which there is no state, and why.
     pub ended: Option<(f64, String)>,
-    pub(super) shown: &'static [&'static str],
+    pub(crate) shown: &'static [&'static str],
 }
 
 impl LoadedSpecimen {
@@ -89,37 +89,37 @@ impl LoadedSpecimen {
 /// keep their volume the pressure that keeps it. Columns of torsion are torque, axial force and axial stretch.
 ///
 /// # Errors
-/// [`MeasuredError::Argument`] for tests, names, values and units that do not go together, [`MeasuredError::MissingSize`];
-/// [`MeasuredError::Specimens`] and [`MeasuredError::Solutions`] when there is no state at the first point. Where there is none at a
+/// [`ForwardError::Argument`] for tests, names, values and units that do not go together, [`ForwardError::MissingSize`];
+/// [`ForwardError::Specimens`] and [`ForwardError::Solutions`] when there is no state at the first point. Where there is none at a
 /// later point, the path [ended](LoadedSpecimen::ended) there.
 ///
 /// # Example
 /// ```
-/// use piola_measured::forward::{SpecimenRequest, solid, specimen};
+/// use piola_forward::{SpecimenRequest, solid, specimen};
 /// // P = μ (λ − λ⁻²) of a bar.
 /// let rubber = solid("neo-hookean:mu=1 MPa", None)?;
 /// let bar = specimen(&SpecimenRequest::new("uniaxial", rubber, ("stretch", "1..2"), &[]))?;
 /// let stress = bar.column("P11").expect("there");
 /// assert!((stress[100] - 1.75e6).abs() < 1e-6);
-/// # Ok::<(), piola_measured::MeasuredError>(())
+/// # Ok::<(), piola_forward::ForwardError>(())
 /// ```
-pub fn specimen(request: &SpecimenRequest) -> Result<LoadedSpecimen, MeasuredError> {
+pub fn specimen(request: &SpecimenRequest) -> Result<LoadedSpecimen, ForwardError> {
     if !POINTS.contains(&request.points) {
         let argument = format!("{} points", request.points);
-        return Err(MeasuredError::Argument { argument, valid: "from 2 to 100000 points" });
+        return Err(ForwardError::Argument { argument, valid: "from 2 to 100000 points" });
     }
     if request.test == "torsion" {
         return torsion(request);
     }
     if let Some((name, size)) = request.sizes.first() {
-        return Err(MeasuredError::Argument { argument: format!("{name} = {size}"), valid: "sizes for torsion only" });
+        return Err(ForwardError::Argument { argument: format!("{name} = {size}"), valid: "sizes for torsion only" });
     }
-    let test = Test::named(&request.test).ok_or_else(|| MeasuredError::Argument {
+    let test = Test::named(&request.test).ok_or_else(|| ForwardError::Argument {
         argument: request.test.clone(),
         valid: "uniaxial, equibiaxial, biaxial, planar, simple-shear, volumetric, mixed or torsion",
     })?;
     let named = |(name, text): &(String, String)| {
-        let refused = || MeasuredError::Argument { argument: format!("{name}={text}"), valid: test.names() };
+        let refused = || ForwardError::Argument { argument: format!("{name}={text}"), valid: test.names() };
         test.prescribed(name).ok_or_else(refused)
     };
     let path = named(&request.path)?;
@@ -129,7 +129,7 @@ pub fn specimen(request: &SpecimenRequest) -> Result<LoadedSpecimen, MeasuredErr
         let prescribed = named(condition)?;
         if once(&path).chain(held.iter().map(|(other, _)| other)).any(|other| other.meets(&prescribed)) {
             let argument = format!("{}={}", condition.0, condition.1);
-            return Err(MeasuredError::Argument { argument, valid: "each component once" });
+            return Err(ForwardError::Argument { argument, valid: "each component once" });
         }
         let value = prescribed.value(&condition.1)?;
         held.push((prescribed, value));
@@ -139,7 +139,7 @@ pub fn specimen(request: &SpecimenRequest) -> Result<LoadedSpecimen, MeasuredErr
     let (rows, ended) = along(ends, request.points, |value| {
         let state = equilibrium(&request.solid, &controls(test, (&path, value), &held)?, &last)?;
         last = state.deformation;
-        Ok::<_, MeasuredError>(row(&request.solid, value, &state, keeps_volume))
+        Ok::<_, ForwardError>(row(&request.solid, value, &state, keeps_volume))
     })?;
     let components = |letter| (1..=3).flat_map(move |i| (1..=3).map(move |j| format!("{letter}{i}{j}")));
     let strains = components("F").chain(once("J".to_owned())).map(|name| (name, ""));
@@ -159,8 +159,8 @@ type Rows = (Vec<Vec<f64>>, Option<(f64, String)>);
 fn along(
     [from, to]: [f64; 2],
     points: u32,
-    mut at: impl FnMut(f64) -> Result<Vec<f64>, MeasuredError>,
-) -> Result<Rows, MeasuredError> {
+    mut at: impl FnMut(f64) -> Result<Vec<f64>, ForwardError>,
+) -> Result<Rows, ForwardError> {
     let mut rows = Vec::with_capacity(points as usize);
     for k in 0..points {
         let share = f64::from(k) / f64::from(points - 1);
@@ -189,11 +189,11 @@ fn row(solid: &AnyRubber, value: f64, state: &HomogeneousState, keeps_volume: bo
 }
 
 /// A rod or a tube of a solid that keeps its volume, its ends held or under a force.
-fn torsion(request: &SpecimenRequest) -> Result<LoadedSpecimen, MeasuredError> {
+fn torsion(request: &SpecimenRequest) -> Result<LoadedSpecimen, ForwardError> {
     match &request.solid {
         AnyRubber::Solid(AnySolid::Incompressible(solid)) => twisted(request, &solid.isochoric),
         AnyRubber::Rubber { shape, volumetric: None } => twisted(request, shape),
-        _ => Err(MeasuredError::Argument {
+        _ => Err(ForwardError::Argument {
             argument: "the solid".to_owned(),
             valid: "neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, carroll, lopez-pamies, van-der-waals or polynomial:n, \
                     without a bulk modulus",
@@ -201,23 +201,23 @@ fn torsion(request: &SpecimenRequest) -> Result<LoadedSpecimen, MeasuredError> {
     }
 }
 
-fn twisted(request: &SpecimenRequest, law: &impl Isochoric) -> Result<LoadedSpecimen, MeasuredError> {
+fn twisted(request: &SpecimenRequest, law: &impl Isochoric) -> Result<LoadedSpecimen, ForwardError> {
     let known = |name: &str| matches!(name, "radius" | "inner_radius");
     if let Some((name, size)) = request.sizes.iter().find(|(name, _)| !known(name)) {
-        return Err(MeasuredError::Argument { argument: format!("{name} = {size}"), valid: "radius or inner_radius" });
+        return Err(ForwardError::Argument { argument: format!("{name} = {size}"), valid: "radius or inner_radius" });
     }
-    let size = |name: &str| -> Result<Option<f64>, MeasuredError> {
+    let size = |name: &str| -> Result<Option<f64>, ForwardError> {
         let Some((_, text)) = request.sizes.iter().find(|(other, _)| other == name) else { return Ok(None) };
-        let refused = || MeasuredError::Argument { argument: format!("{name} = {text}"), valid: "a length, as 5 mm" };
+        let refused = || ForwardError::Argument { argument: format!("{name} = {text}"), valid: "a length, as 5 mm" };
         value(text, Dimension::LENGTH).map(Some).ok_or_else(refused)
     };
-    let outer = size("radius")?.ok_or_else(|| MeasuredError::MissingSize { name: "radius".to_owned() })?;
+    let outer = size("radius")?.ok_or_else(|| ForwardError::MissingSize { name: "radius".to_owned() })?;
     let tube = match size("inner_radius")? {
         Some(inner) => Tube::new(inner, outer)?,
         None => Tube::solid(outer)?,
     };
     let (name, text) = &request.path;
-    let ends = (name == "twist").then(|| range(text, TWIST)).flatten().ok_or_else(|| MeasuredError::Argument {
+    let ends = (name == "twist").then(|| range(text, TWIST)).flatten().ok_or_else(|| ForwardError::Argument {
         argument: format!("{name}={text}"),
         valid: "twist, the angle per length of the rod, as twist=0..100 rad/m",
     })?;
@@ -227,7 +227,7 @@ fn twisted(request: &SpecimenRequest, law: &impl Isochoric) -> Result<LoadedSpec
         [(name, text)] if name == "force" => value(text, Dimension::FORCE).map(Ends::Force),
         _ => None,
     };
-    let held = held.ok_or_else(|| MeasuredError::Argument {
+    let held = held.ok_or_else(|| ForwardError::Argument {
         argument: request.held.iter().map(|(name, text)| format!("{name}={text}")).collect::<Vec<_>>().join(", "),
         valid: "stretch=1.1 or force=0 N, one of them",
     })?;
