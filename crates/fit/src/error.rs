@@ -95,8 +95,10 @@ pub enum FitError {
         name: String,
     },
     /// A fluid has a name that is not known.
-    #[error("no fluid with parameters in a row is called `{name}`; they are {}", crate::fluids::FluidModel::NAMES.join(", "))]
-    #[cfg(feature = "fluids")]
+    #[error(
+        "no fluid that can be fitted is called `{name}`; they are newtonian, power-law, bingham, casson, herschel-bulkley, \
+         papanastasiou, eyring, sisko, ellis, cross, carreau-yasuda"
+    )]
     UnknownFluid {
         /// The name.
         name: String,

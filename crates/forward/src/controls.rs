@@ -3,8 +3,8 @@
 use piola_document::units::Dimension;
 use piola_specimens::homogeneous::{Control, Controls};
 
-use crate::quantity::{parts, value};
 use crate::ForwardError;
+use crate::quantity::{parts, value};
 
 /// A homogeneous test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,8 +6,8 @@ use piola_viscometry::{
     Annulus, Channel, ConeAndPlate, Couette, Estimate, FallingFilm, ParallelPlates, Poiseuille, ViscometryError,
 };
 
-use crate::quantity::value;
 use crate::ForwardError;
+use crate::quantity::value;
 
 /// g, m/s².
 const GRAVITY: f64 = 9.806_65;

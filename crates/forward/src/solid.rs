@@ -6,8 +6,8 @@ use piola_document::units::{Dimension, Quantity};
 use piola_fit::sides::SidesModel;
 use piola_fit::solids::{AnyModel, Model as _, Parameter};
 use piola_laws::rubber::AnyRubber;
-use piola_solids::volumetric::SimoTaylor;
 use piola_measured::internal::{read, spelled, written_solid};
+use piola_solids::volumetric::SimoTaylor;
 use serde_json::Value;
 
 use crate::ForwardError;

@@ -10,9 +10,9 @@ use piola_solids::{AnySolid, Hyperelastic as _};
 use piola_solutions::loads::{Ends, Torsion, Tube};
 use piola_specimens::homogeneous::{HomogeneousState, equilibrium};
 
+use crate::ForwardError;
 use crate::controls::{Prescribed, Test, controls, range};
 use crate::quantity::value;
-use crate::ForwardError;
 
 /// The least and the greatest number of points of a path.
 const POINTS: core::ops::RangeInclusive<u32> = 2..=100_000;

@@ -67,7 +67,7 @@ def test_a_flow_curve_gives_its_fluid():
         (lambda oil: piola.Pipe(oil, 1.0, pressure_gradient=1.0).velocity(2.0), "r"),
         (lambda oil: piola.Couette(oil, 2.0, 1.0, moment=1.0), "R₁ < R₂"),
         (lambda oil: piola.fit_fluid("cheese", [1.0], [1.0], [1.0]), "no fluid that can be fitted"),
-        (lambda oil: piola.fit_fluid("power_law", [1.0, 2.0], [1.0, 2.0], [1.0]), "consistency, exponent"),
+        (lambda oil: piola.fit_fluid("power_law", [1.0, 2.0], [1.0, 2.0], [1.0]), "must be 2"),
         (lambda oil: piola.fit_fluid("power_law", [1.0, 2.0], [1.0], [1.0, 1.0]), "shape"),
     ],
 )

@@ -113,11 +113,7 @@ fn fitted<F: Parameters<N> + ViscometricFluid + Into<AnyFluid>, const N: usize>(
     stop: &dyn Fn() -> bool,
 ) -> Result<FluidFit<AnyFluid>, FitError> {
     let own = |start: &Vec<f64>| -> Result<[f64; N], FitError> {
-        let wrong = |_| FitError::NumberOfValues {
-            model: model.name().to_owned(),
-            parameters: N,
-            values: start.len(),
-        };
+        let wrong = |_| FitError::NumberOfValues { model: model.name().to_owned(), parameters: N, values: start.len() };
         start.as_slice().try_into().map_err(wrong)
     };
     let starts: Vec<[f64; N]> = starts.iter().map(own).collect::<Result<_, _>>()?;

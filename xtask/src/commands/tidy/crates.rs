@@ -52,13 +52,15 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("simulation", &["hamiltonian", "gravitation"]),
     ("document", &[]),
     ("charts", &[]),
-    ("measured", &["document", "charts", "fit", "solutions"]),
+    ("measured", &["document", "charts", "fit"]),
+    // solutions, by feature: twisted rods.
+    ("forward", &["measured", "solutions"]),
     // solutions and uniformity, by feature: studies of solids; spectral, by feature: fields on a box.
     ("scene", &["document", "charts", "simulation", "characteristics", "solutions", "uniformity", "spectral"]),
     ("ensemble", &["scene"]),
     // charts: the folder of the results.
     // images, by feature: files of images, for the command `register` alone.
-    ("cli", &["ensemble", "measured", "images"]),
+    ("cli", &["ensemble", "forward", "images"]),
     // The functions that other languages call.
     ("ffi", &["piola"]),
     // ffi: its safe half, laws at many points, compiled once for both. scene, by feature: motions run from a text.

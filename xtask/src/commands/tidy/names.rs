@@ -66,9 +66,9 @@ pub(super) fn check(workspace: &Workspace) -> Vec<String> {
             for (word, name) in WORDS.iter().filter(|(word, _)| has_word(text, word)) {
                 problems.push(format!("{place}:{line}: `{word}` is called `{name}`"));
             }
-            if let Some(name) = public_type(text)
-                .filter(|_| !matches!(folder, "testkit" | "document" | "charts" | "measured" | "scene" | "cli"))
-            {
+            if let Some(name) = public_type(text).filter(|_| {
+                !matches!(folder, "testkit" | "document" | "charts" | "measured" | "forward" | "scene" | "cli")
+            }) {
                 types.entry(name.to_owned()).or_default().push(format!("{place}:{line}"));
             }
         }
