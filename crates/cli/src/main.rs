@@ -22,6 +22,7 @@ mod specimens;
 #[cfg(not(feature = "specimens"))]
 #[path = "specimens/absent.rs"]
 mod specimens;
+mod spectra;
 mod sweeps;
 
 use std::process::ExitCode;
@@ -51,6 +52,7 @@ fn main() -> ExitCode {
         Command::Recover(arguments) => flows::recover(&arguments),
         Command::FitFlow(arguments) => flows::fit(&arguments),
         Command::Flow(arguments) => flows::solve(&arguments),
+        Command::Spectrum(arguments) => spectra::find(&arguments),
         Command::Specimen(arguments) => specimens::load(&arguments),
         Command::Register(arguments) => register::register(&arguments),
         Command::Schema(arguments) => commands::schema(&arguments),

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use piola_charts::ChartsError;
 use piola_fit::FitError;
+use piola_spectra::SpectraError;
 use piola_viscometry::ViscometryError;
 
 use crate::fitting::TableReport;
@@ -78,6 +79,9 @@ pub enum MeasuredError {
     /// A fluid or its data are refused.
     #[error(transparent)]
     Viscometry(#[from] ViscometryError),
+    /// Moduli have no spectrum.
+    #[error(transparent)]
+    Spectra(#[from] SpectraError),
     /// The results cannot be written.
     #[error(transparent)]
     Charts(#[from] ChartsError),

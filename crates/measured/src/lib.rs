@@ -8,6 +8,7 @@ pub mod fitting;
 pub mod rheology;
 mod sheet;
 pub mod sides;
+pub mod spectra;
 mod written;
 
 /// What other crates of Piola use; no part of the interface.

@@ -137,9 +137,9 @@ fn overlap(fixed: &[[f64; 2]], moved: &[[f64; 2]]) -> Option<f64> {
 pub struct ShiftFit<L, const N: usize> {
     /// The law.
     pub law: L,
-    /// 95 % interval of each constant; `None` where the data do not determine it.
+    /// 95 % interval of each constant; `None` where the data do not determine it, or are as many as the constants.
     pub intervals: [Option<[f64; 2]>; N],
-    /// √(S/m): the error of ln aₜ, root mean square.
+    /// √(S/m): the error of ln aₜ at the m temperatures beside the reference, root mean square.
     pub error: f64,
     /// How the search ended.
     pub outcome: Outcome,
@@ -196,31 +196,40 @@ fn fit<L: TemperatureShift, const N: usize>(
         check("temperature", index, t, "0 < θ", 0.0 < t)?;
         check("ln aₜ", index, logarithm, "finite", true)?;
     }
-    let count = expected as f64;
-    check("number of temperatures", 0, count, "number of constants < number of temperatures", N < expected)?;
+    // The law is zero at the reference temperature, whatever its constants: a shift there tells nothing.
+    let tells = |t: &&f64| (shifts.slopes)(start, **t).iter().any(|slope| 0.0 < slope.abs());
+    let told = shifts.temperatures.iter().filter(tells).count();
+    let bound = "number of constants ≤ number of temperatures beside the reference";
+    check("number of temperatures beside the reference", 0, told as f64, bound, N <= told)?;
     let none = SpectraError::NoShift { law: L::NAME };
     let x = start.map(|value| Range::POSITIVE.inward(value)).to_vec();
     let law = shifts.law;
     let end = minimise(shifts, x, 200, &|| false).ok_or_else(|| none.clone())?;
     let (constants, residuals) = &end.state;
     let squares: f64 = residuals.iter().map(|r| r * r).sum();
-    let degrees = expected - N;
+    let degrees = told - N;
     let free: Vec<usize> = (0..N).collect();
-    let covariance = Covariance::new(&end.misfit.jacobian(&end.state, &[]), &free, squares / degrees as f64);
-    let factor = student(0.95, degrees);
+    let covariance = Covariance::new(&end.misfit.jacobian(&end.state, &[]), &free, squares / degrees.max(1) as f64);
+    // As many shifts as constants leave no errors.
+    let factor = student(0.95, degrees).filter(|_| 0 < degrees);
     let intervals = core::array::from_fn(|k| {
         let place = covariance.parameters.iter().position(|&other| other == k)?;
         let half = factor? * covariance.matrix[place][place].sqrt();
         Some([constants[k] * (-half).exp(), constants[k] * half.exp()])
     });
-    Ok(ShiftFit { law: law(*constants).ok_or(none)?, intervals, error: (squares / count).sqrt(), outcome: end.outcome })
+    Ok(ShiftFit {
+        law: law(*constants).ok_or(none)?,
+        intervals,
+        error: (squares / told as f64).sqrt(),
+        outcome: end.outcome,
+    })
 }
 
 /// The activation energy of Arrhenius from shifts ln aₜ at temperatures, K, by least squares of ln aₜ.
 ///
 /// # Errors
-/// [`SpectraError::NotFinite`], [`SpectraError::WrongLength`]; [`SpectraError::OutOfBounds`] of temperatures, or for fewer than
-/// two; [`SpectraError::Fluids`] of the reference temperature; [`SpectraError::NoShift`] where no law was found.
+/// [`SpectraError::NotFinite`], [`SpectraError::WrongLength`]; [`SpectraError::OutOfBounds`] of temperatures, or where
+/// none is beside the reference; [`SpectraError::Fluids`] of the reference temperature; [`SpectraError::NoShift`] where no law was found.
 ///
 /// # Example
 /// ```
@@ -244,7 +253,7 @@ pub fn fit_arrhenius(
 /// The constants C₁ and C₂, K, of Williams, Landel and Ferry from shifts ln aₜ at temperatures, K, by least squares of ln aₜ.
 ///
 /// # Errors
-/// As [`fit_arrhenius`], with three temperatures or more.
+/// As [`fit_arrhenius`], with two temperatures or more beside the reference.
 pub fn fit_williams_landel_ferry(
     temperatures: &[f64],
     logarithms: &[f64],

@@ -1,8 +1,9 @@
 //! `cargo xtask package`
 
-use std::path::{Path, PathBuf};
+use std::fmt::Write as _;
+use std::path::Path;
 
-use xshell::cmd;
+use xshell::{Shell, cmd};
 
 use super::Command;
 use crate::step::{Outcome, Step};
@@ -11,71 +12,82 @@ use crate::workspace::Workspace;
 pub(super) const COMMAND: Command = Command {
     name: "package",
     usage: "",
-    help: "package every published crate in dependency order and build each from its package",
+    help: "package every published crate and check it as it comes out of its package, with its default features
+The packages are unpacked side by side, where each sees the others and nothing else of the repository. Libraries are
+checked one by one, the facade and the programs together.",
     prepare: |shell, workspace, _| {
-        let target = Workspace::target(shell)?;
-        // cargo sorts the crates by their dependencies and lets each see the packages of those before it.
-        // Packages are built in cargo's own profile; debug information would take a third of the time.
-        let mut command = cmd!(shell, "cargo package --allow-dirty --quiet").env("CARGO_PROFILE_DEV_DEBUG", "false");
-        for member in workspace.crates.iter().filter(|member| member.is_published()) {
-            command = command.args(["--package", &member.name]);
+        let packages = Workspace::target(shell)?.join("package");
+        let apart = packages.join("apart");
+        let published: Vec<&str> =
+            workspace.crates.iter().filter(|member| member.is_published()).map(|member| member.name.as_str()).collect();
+        let mut make = cmd!(shell, "cargo package --allow-dirty --no-verify --quiet");
+        for name in &published {
+            make = make.args(["--package", name]);
         }
-        Ok(vec![
-            Step::check(
-                "package: forget",
-                move || forget(workspace, &target),
-                "what is left of an earlier run could not be removed",
-            ),
+        let (from, to, names) = (packages.clone(), apart.clone(), published.clone());
+        let mut steps = vec![
             Step::program(
                 "package",
-                command,
-                "a crate does not build from what would be published: a file outside its folder, or a missing version",
+                make,
+                "a crate cannot be packaged: a missing version, or a file that is not there",
             ),
-        ])
+            Step::check(
+                "package: unpack",
+                move || unpack(shell, workspace, &names, &from, &to),
+                "a package could not be unpacked",
+            ),
+        ];
+        let (manifest, target) = (apart.join("Cargo.toml"), apart.join("target"));
+        // A library alone, so that none leans on a feature that another one asks for; the programs, which ask for much, together.
+        let facade = workspace.member("piola").and_then(|facade| facade.manifest.get("dependencies"));
+        let is_library = |name: &&str| facade.is_some_and(|dependencies| dependencies.get(name).is_some());
+        let (libraries, programs): (Vec<&str>, Vec<&str>) = published.into_iter().partition(is_library);
+        for names in libraries.iter().map(core::slice::from_ref).chain([programs.as_slice()]) {
+            let mut command = cmd!(shell, "cargo check --quiet --manifest-path {manifest} --target-dir {target}");
+            for name in names {
+                command = command.args(["--package", name]);
+            }
+            let name = if let [library] = names { library } else { "facade and programs" };
+            steps.push(Step::program(
+                &format!("package: {name}"),
+                command,
+                "a crate does not build from what would be published: a file outside its folder, or a feature it does not ask for",
+            ));
+        }
+        Ok(steps)
     },
 };
 
-/// Removes our crates from what cargo has unpacked of local registries, and has compiled of them: it keeps both by version, and
-/// would build against those of an earlier run as long as the version is the same.
-fn forget(workspace: &Workspace, target: &Path) -> Outcome {
-    let removed = remove(&unpacked(workspace))? + remove(&compiled(workspace, &target.join("debug/.fingerprint")))?;
-    Ok(format!("{removed} folders of an earlier run removed"))
-}
-
-/// Our crates in registries without a host, which are folders of this machine.
-fn unpacked(workspace: &Workspace) -> Vec<PathBuf> {
-    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    let Some(home) = home.or_else(|| std::env::home_dir().map(|home| home.join(".cargo"))) else { return Vec::new() };
-    let registries = folders(&home.join("registry/src"));
-    let local = registries.iter().filter(|path| name_of(path).starts_with('-'));
-    local.flat_map(|registry| folders(registry)).filter(|package| is_ours(workspace, package)).collect()
-}
-
-/// What says that our crates are compiled, of those that came from a registry: cargo calls their state precalculated.
-fn compiled(workspace: &Workspace, fingerprints: &Path) -> Vec<PathBuf> {
-    let precalculated = |unit: &PathBuf| {
-        let files = folders(unit);
-        let mut texts = files.iter().filter_map(|file| std::fs::read_to_string(file).ok());
-        texts.any(|text| text.contains("\"Precalculated\""))
-    };
-    folders(fingerprints).into_iter().filter(|unit| is_ours(workspace, unit)).filter(precalculated).collect()
-}
-
-fn is_ours(workspace: &Workspace, path: &Path) -> bool {
-    workspace.crates.iter().any(|member| member.is_published() && name_of(path).starts_with(&member.name))
-}
-
-fn folders(path: &Path) -> Vec<PathBuf> {
-    std::fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path()).collect()
-}
-
-fn name_of(path: &Path) -> String {
-    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
-}
-
-fn remove(folders: &[PathBuf]) -> Result<usize, Vec<String>> {
-    for folder in folders {
-        std::fs::remove_dir_all(folder).map_err(|error| vec![format!("{}: {error}", folder.display())])?;
+/// Unpacks the packages beside each other, as members of a workspace in which each is found in the folder of its package.
+fn unpack(shell: &Shell, workspace: &Workspace, names: &[&str], packages: &Path, apart: &Path) -> Outcome {
+    let fail = |error: xshell::Error| vec![error.to_string()];
+    for name in names {
+        shell.remove_path(apart.join(name)).map_err(fail)?;
+        let folder = shell.create_dir(apart.join(name)).map_err(fail)?;
+        let package = newest(packages, name).map_err(|error| vec![error])?;
+        cmd!(shell, "tar -xzf {package} -C {folder} --strip-components 1").quiet().run().map_err(fail)?;
     }
-    Ok(folders.len())
+    let mut manifest = String::from("[workspace]\nresolver = \"3\"\n");
+    let list: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
+    let _ = write!(manifest, "members = [{}]\n\n[patch.crates-io]\n", list.join(", "));
+    for name in names {
+        let _ = writeln!(manifest, "{name} = {{ path = {name:?} }}");
+    }
+    shell.write_file(apart.join("Cargo.toml"), manifest).map_err(fail)?;
+    // The versions of other crates are those of the repository.
+    shell.copy_file(workspace.root.join("Cargo.lock"), apart.join("Cargo.lock")).map_err(fail)?;
+    Ok(format!("{} packages unpacked", names.len()))
+}
+
+/// The package of a crate: the name is followed by a version, `piola-fit-0.1.0.crate`.
+fn newest(packages: &Path, name: &str) -> Result<std::path::PathBuf, String> {
+    let is_its = |path: &std::path::PathBuf| {
+        let file = path.file_name().and_then(|file| file.to_str()).unwrap_or_default();
+        let version = file.strip_prefix(name).and_then(|rest| rest.strip_prefix('-'));
+        version.is_some_and(|version| version.ends_with(".crate") && version.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    let entries = std::fs::read_dir(packages).map_err(|error| format!("{}: {error}", packages.display()))?;
+    let found = entries.flatten().map(|entry| entry.path()).filter(is_its);
+    let age = |path: &std::path::PathBuf| path.metadata().and_then(|data| data.modified()).ok();
+    found.max_by_key(age).ok_or_else(|| format!("there is no package of {name} in {}", packages.display()))
 }

@@ -99,6 +99,33 @@ fn a_card_of_ls_dyna_needs_a_density() {
     );
 }
 
+#[test]
+fn a_spectrum_is_found_of_files_of_several_temperatures_with_its_card() {
+    let folder = Folder::new("spectrum");
+    let moduli = |w: f64| [2e3 * w * w / (1.0 + w * w), 2e3 * w / (1.0 + w * w)];
+    for (name, temperature, shift) in [("cold.csv", 150, 2.0), ("warm.csv", 170, 1.0)] {
+        let mut text = format!("# temperature: {temperature} °C\nomega [rad/s],G' [Pa],G'' [Pa]\n");
+        for k in 0..17 {
+            let w = 10.0_f64.powf(0.125 * f64::from(k) - 1.0);
+            let [storage, loss] = moduli(shift * w);
+            writeln!(text, "{w:?},{storage:?},{loss:?}").unwrap_or_else(|error| panic!("{error}"));
+        }
+        folder.write(name, &text);
+    }
+    let run = |arguments: &[&str]| folder.piola(&[&["spectrum", "cold.csv", "warm.csv"], arguments].concat());
+    let (code, printed, told) = run(&["--reference-temperature", "170 °C", "--modes", "1", "--card", "abaqus"]);
+    assert_eq!((code, told.as_str()), (Some(0), ""), "{printed}");
+    assert!(printed.contains("shifted to 170.0 °C") && printed.contains("1 mode,"), "{printed}");
+    assert!(folder.read("out/spectrum-cold/abaqus-prony.inp").contains("*VISCOELASTIC, TIME=PRONY\n1.0, 0.0, "));
+    let summary: serde_json::Value =
+        serde_json::from_str(&folder.read("out/spectrum-cold/summary.json")).unwrap_or_else(|error| panic!("{error}"));
+    let modulus = summary["modes"][0]["modulus"].as_f64().unwrap_or(f64::NAN);
+    assert!((modulus / 2e3 - 1.0).abs() < 0.01, "{modulus}");
+    let (code, _, told) = run(&["--card", "ls-dyna"]);
+    assert_eq!(code, Some(2));
+    assert!(told.contains("abaqus, ansys, or febio"), "{told}");
+}
+
 #[cfg(not(feature = "specimens"))]
 #[test]
 fn a_program_without_specimens_says_how_to_get_them() {

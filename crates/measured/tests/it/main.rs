@@ -8,3 +8,4 @@ mod layouts;
 mod newtonian;
 mod rheology;
 mod sides;
+mod spectra;

@@ -52,7 +52,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("simulation", &["hamiltonian", "gravitation"]),
     ("document", &[]),
     ("charts", &[]),
-    ("measured", &["document", "charts", "fit"]),
+    ("measured", &["document", "charts", "spectra"]),
     // solutions, by feature: twisted rods.
     ("forward", &["measured", "solutions"]),
     // solutions and uniformity, by feature: studies of solids; spectral, by feature: fields on a box.

@@ -1,0 +1,71 @@
+//! The command `spectrum`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use piola_charts::Folder;
+use piola_measured::MeasuredError;
+use piola_measured::fitting::Program;
+use piola_measured::spectra::{SpectrumRequest, SpectrumTable, prony, spectrum};
+
+use crate::Exit;
+use crate::commands::{note, refused};
+use crate::flows::show;
+
+#[derive(Debug, Args)]
+pub(crate) struct SpectrumArguments {
+    /// The measurements: CSV of G′ and G″ over the frequency, or of G over the time, with units in the header; several files for
+    /// several temperatures.
+    #[arg(required = true)]
+    pub(crate) data: Vec<PathBuf>,
+    /// The number of modes; without it, the one of the least AICc.
+    #[arg(long, value_name = "N")]
+    pub(crate) modes: Option<usize>,
+    /// Fit an equilibrium modulus, as of a solid.
+    #[arg(long)]
+    pub(crate) equilibrium: bool,
+    /// The temperature of the spectrum, as `150 °C`; without it, the middle one.
+    #[arg(long, value_name = "TEMPERATURE", allow_hyphen_values = true)]
+    pub(crate) reference_temperature: Option<String>,
+    /// Write the Prony series for abaqus, ansys or febio; several times for several.
+    #[arg(long = "card", value_name = "PROGRAM")]
+    pub(crate) cards: Vec<String>,
+    /// Folder of the results instead of out/spectrum-DATA.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print JSON to standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+pub(crate) fn find(arguments: &SpectrumArguments) -> Exit {
+    let prepared = SpectrumTable::load(&arguments.data).and_then(|table| {
+        let mut request = SpectrumRequest::default();
+        if let Some(text) = &arguments.reference_temperature {
+            request = request.at_temperature(text)?;
+        }
+        request.modes = arguments.modes;
+        request.equilibrium = arguments.equilibrium;
+        let found = spectrum(&table, &request)?;
+        let card = |text: &String| -> Result<(String, String), MeasuredError> {
+            let program: Program = text.parse()?;
+            Ok((format!("{text}-prony.{}", program.ending()), prony(program, &found.fit.spectrum)?))
+        };
+        let cards = arguments.cards.iter().map(card).collect::<Result<Vec<_>, _>>()?;
+        let beside = || Path::new("out").join(format!("spectrum-{}", table.name()));
+        let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
+        Ok((table, found, cards, folder))
+    });
+    match prepared {
+        Ok((table, found, cards, folder)) => {
+            let written = found.write(&folder, &table, &cards);
+            let text = if arguments.json { found.summary(&table) } else { found.table(&table) };
+            show(&text, arguments.json, &folder, &written);
+            if !found.is_settled() {
+                note("error: the search of the modes did not converge");
+            }
+            if found.is_settled() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
+        }
+        Err(error) => refused(&error, arguments.json),
+    }
+}

@@ -1,0 +1,72 @@
+//! Prony series of finite-element programs.
+
+use core::fmt::Write as _;
+
+use piola_spectra::RelaxationSpectrum;
+
+use crate::MeasuredError;
+use crate::fitting::Program;
+
+/// The most modes of `FEBio`.
+const MOST_OF_FEBIO: usize = 6;
+
+/// The card of a spectrum: each modulus over G₀ = Gₑ + Σ gᵢ, so that the elastic law of the program is that of fast loads.
+///
+/// ```text
+/// Abaqus   *VISCOELASTIC, TIME=PRONY: gᵢ/G₀, 0, τᵢ       G(t)/G₀ = 1 − Σ (gᵢ/G₀)(1 − exp(−t/τᵢ))
+/// Ansys    TB,PRONY,1,1,n,SHEAR: gᵢ/G₀, τᵢ               the same
+/// FEBio    viscoelastic: g0 = Gₑ/G₀, gᵢ/G₀, tᵢ = τᵢ      G(t)/G₀ = g0 + Σ gᵢ exp(−t/tᵢ)
+/// ```
+/// Times are in s. The change of volume does not relax.
+///
+/// # Errors
+/// [`MeasuredError::Argument`] for other programs, and for more than six modes in `FEBio`.
+///
+/// # Example
+/// ```
+/// use piola_measured::fitting::Program;
+/// use piola_measured::spectra::{RelaxationMode, RelaxationSpectrum, prony};
+/// let mode = RelaxationMode { modulus: 3.0, relaxation_time: 0.5 };
+/// let gel = RelaxationSpectrum::new(vec![mode], 1.0)?;
+/// assert!(prony(Program::Abaqus, &gel)?.contains("\n0.75, 0.0, 0.5\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn prony(program: Program, spectrum: &RelaxationSpectrum) -> Result<String, MeasuredError> {
+    let glassy = spectrum.glassy_modulus();
+    let terms: Vec<[f64; 2]> =
+        spectrum.modes().iter().map(|mode| [mode.modulus / glassy, mode.relaxation_time]).collect();
+    let mut text = String::new();
+    match program {
+        Program::Abaqus => {
+            let _ = writeln!(text, "** instantaneous shear modulus {glassy:?} Pa\n*VISCOELASTIC, TIME=PRONY");
+            for [share, time] in terms {
+                let _ = writeln!(text, "{share:?}, 0.0, {time:?}");
+            }
+        }
+        Program::Ansys => {
+            let _ = writeln!(text, "! instantaneous shear modulus {glassy:?} Pa\nTB,PRONY,1,1,{},SHEAR", terms.len());
+            // Six constants a line, from the place that is named.
+            for (k, chunk) in terms.chunks(3).enumerate() {
+                let numbers: Vec<String> = chunk.iter().flatten().map(|x| format!("{x:?}")).collect();
+                let _ = writeln!(text, "TBDATA,{},{}", 6 * k + 1, numbers.join(","));
+            }
+        }
+        Program::FeBio if terms.len() <= MOST_OF_FEBIO => {
+            let _ = writeln!(text, "<!-- instantaneous shear modulus {glassy:?} Pa; put the elastic law inside -->");
+            text.push_str("<material id=\"1\" type=\"viscoelastic\">\n");
+            let rest = 1.0 - terms.iter().map(|[share, _]| share).sum::<f64>();
+            let _ = writeln!(text, "  <g0>{:?}</g0>", rest.max(0.0));
+            for (k, [share, time]) in (1..).zip(terms) {
+                let _ = writeln!(text, "  <g{k}>{share:?}</g{k}>\n  <t{k}>{time:?}</t{k}>");
+            }
+            text.push_str("</material>\n");
+        }
+        _ => {
+            return Err(MeasuredError::Argument {
+                argument: format!("--card of {program} with {} modes", terms.len()),
+                valid: "abaqus, ansys, or febio with at most six modes (--modes 6)",
+            });
+        }
+    }
+    Ok(text)
+}
