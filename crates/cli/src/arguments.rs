@@ -48,6 +48,10 @@ pub(crate) enum Command {
     Register(crate::register::RegisterArguments),
     /// Print the JSON Schema of scenes, for editors.
     Schema(SchemaArguments),
+    /// Print completions for a shell, as `piola completions bash > ~/.local/share/bash-completion/completions/piola`.
+    Completions(crate::shell::CompletionsArguments),
+    /// Print a page of the manual, as `piola manual > ~/.local/share/man/man1/piola.1`.
+    Manual(crate::shell::ManualArguments),
 }
 
 #[derive(Debug, Args)]

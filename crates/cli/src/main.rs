@@ -17,6 +17,7 @@ mod register;
 #[path = "register/absent.rs"]
 mod register;
 mod report;
+mod shell;
 #[cfg(feature = "specimens")]
 mod specimens;
 #[cfg(not(feature = "specimens"))]
@@ -56,6 +57,8 @@ fn main() -> ExitCode {
         Command::Specimen(arguments) => specimens::load(&arguments),
         Command::Register(arguments) => register::register(&arguments),
         Command::Schema(arguments) => commands::schema(&arguments),
+        Command::Completions(arguments) => shell::completions(&arguments),
+        Command::Manual(arguments) => shell::manual(&arguments),
     };
     match commands::whole(exit) {
         Exit::Done => ExitCode::SUCCESS,

@@ -431,3 +431,18 @@ fn study_is_planned_checked_and_run_like_any_scene() {
     assert_eq!(output.status.code(), Some(2));
     assert!(err(&output).contains("--set:1:12"), "{}", err(&output));
 }
+
+#[test]
+fn shells_get_completions_and_the_manual_its_pages() {
+    let folder = Folder::new("shell");
+    for (shell, sign) in [("bash", "complete -F _piola"), ("zsh", "#compdef piola"), ("fish", "complete -c piola")] {
+        let found = folder.piola(&["completions", shell]);
+        assert_eq!(found.status.code(), Some(0));
+        assert!(out(&found).contains(sign) && out(&found).contains("spectrum"), "{shell}");
+    }
+    let pages = [folder.piola(&["manual"]), folder.piola(&["manual", "fit-flow"])].map(|page| out(&page));
+    assert!(pages[0].contains(".TH piola 1") && pages[1].contains(".TH piola-fit-flow 1"), "{}", pages[1]);
+    let none = folder.piola(&["manual", "fly"]);
+    assert_eq!(none.status.code(), Some(2));
+    assert!(err(&none).contains("no command is called `fly`; valid: run, plan"));
+}

@@ -1,0 +1,48 @@
+//! Completions of shells, and pages of the manual.
+
+use clap::{Args, CommandFactory as _};
+use clap_complete::Shell;
+
+use crate::Exit;
+use crate::arguments::Arguments;
+use crate::commands::{note, print};
+
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArguments {
+    /// The shell.
+    pub(crate) shell: Shell,
+}
+
+pub(crate) fn completions(arguments: &CompletionsArguments) -> Exit {
+    let mut text = Vec::new();
+    clap_complete::generate(arguments.shell, &mut Arguments::command(), "piola", &mut text);
+    print(&String::from_utf8_lossy(&text));
+    Exit::Done
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ManualArguments {
+    /// The command whose page is printed, as `fit`; without it, the page of the program.
+    pub(crate) command: Option<String>,
+}
+
+pub(crate) fn manual(arguments: &ManualArguments) -> Exit {
+    let mut program = Arguments::command();
+    program.build();
+    let page = match arguments.command.as_deref() {
+        None => program,
+        Some(name) => match program.find_subcommand(name) {
+            Some(command) => command.clone(),
+            None => {
+                let names: Vec<&str> = program.get_subcommands().map(clap::Command::get_name).collect();
+                note(&format!("error: no command is called `{name}`; valid: {}", names.join(", ")));
+                return Exit::Invalid;
+            }
+        },
+    };
+    let mut text = Vec::new();
+    // Nothing that is written to memory can fail.
+    let _ = clap_mangen::Man::new(page).render(&mut text);
+    print(&String::from_utf8_lossy(&text));
+    Exit::Done
+}
