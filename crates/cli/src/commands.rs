@@ -236,13 +236,11 @@ pub(crate) fn refused(error: &MeasuredError, json: bool) -> Exit {
 
 /// A flow or a specimen that is not accepted.
 pub(crate) fn refused_forward(error: &ForwardError, json: bool) -> Exit {
-    match error {
-        ForwardError::Measured(error) => refused(error, json),
-        _ => {
-            failure(error, json);
-            Exit::Invalid
-        }
+    if let ForwardError::Measured(error) = error {
+        return refused(error, json);
     }
+    failure(error, json);
+    Exit::Invalid
 }
 
 pub(crate) fn failure(error: &impl core::fmt::Display, json: bool) {

@@ -31,14 +31,14 @@ pub(crate) fn manual(arguments: &ManualArguments) -> Exit {
     program.build();
     let page = match arguments.command.as_deref() {
         None => program,
-        Some(name) => match program.find_subcommand(name) {
-            Some(command) => command.clone(),
-            None => {
+        Some(name) => {
+            let Some(command) = program.find_subcommand(name) else {
                 let names: Vec<&str> = program.get_subcommands().map(clap::Command::get_name).collect();
                 note(&format!("error: no command is called `{name}`; valid: {}", names.join(", ")));
                 return Exit::Invalid;
-            }
-        },
+            };
+            command.clone()
+        }
     };
     let mut text = Vec::new();
     // Nothing that is written to memory can fail.

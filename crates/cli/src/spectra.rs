@@ -18,7 +18,7 @@ pub(crate) struct SpectrumArguments {
     /// several temperatures.
     #[arg(required = true)]
     pub(crate) data: Vec<PathBuf>,
-    /// The number of modes; without it, the one of the least AICc.
+    /// The number of modes; chosen from the data when absent.
     #[arg(long, value_name = "N")]
     pub(crate) modes: Option<usize>,
     /// Fit an equilibrium modulus, as of a solid.

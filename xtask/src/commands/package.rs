@@ -82,9 +82,10 @@ fn unpack(shell: &Shell, workspace: &Workspace, names: &[&str], packages: &Path,
 /// The package of a crate: the name is followed by a version, `piola-fit-0.1.0.crate`.
 fn newest(packages: &Path, name: &str) -> Result<std::path::PathBuf, String> {
     let is_its = |path: &std::path::PathBuf| {
-        let file = path.file_name().and_then(|file| file.to_str()).unwrap_or_default();
-        let version = file.strip_prefix(name).and_then(|rest| rest.strip_prefix('-'));
-        version.is_some_and(|version| version.ends_with(".crate") && version.starts_with(|c: char| c.is_ascii_digit()))
+        let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+        let version = stem.strip_prefix(name).and_then(|rest| rest.strip_prefix('-'));
+        let is_version = version.is_some_and(|version| version.starts_with(|c: char| c.is_ascii_digit()));
+        is_version && path.extension().is_some_and(|ending| ending == "crate")
     };
     let entries = std::fs::read_dir(packages).map_err(|error| format!("{}: {error}", packages.display()))?;
     let found = entries.flatten().map(|entry| entry.path()).filter(is_its);

@@ -180,7 +180,7 @@ fn tests_with_sides_are_refused_by_name() -> Fallible {
     let unknown = options.clone().with_bounds("gamma", [0.0, 1.0]);
     assert!(matches!(refused(foam, core::slice::from_ref(&test), &unknown), Some(FitError::UnknownParameter { .. })));
     let nan = options.clone().with_bounds("nu1", [f64::NAN, 0.4]);
-    assert!(matches!(refused(foam, &[test.clone()], &nan), Some(FitError::ImpossibleBounds { .. })));
+    assert!(matches!(refused(foam, core::slice::from_ref(&test), &nan), Some(FitError::ImpossibleBounds { .. })));
     let still = SidesTest::new("still", Loading::Uniaxial, &[(1.0, 0.0, Some(1.0))])?;
     assert!(matches!(refused(foam, &[still], &options), Some(FitError::NothingTold { test }) if test == "still"));
     let lateral = SidesTest::new("shear", Loading::SimpleShear, &[(0.1, 1.0, Some(1.0))]);

@@ -43,6 +43,7 @@ const WHOLE: [(&str, &str); 36] = [
 ];
 
 /// The unit of a text in one of its usual spellings: `mPa.s`, `mPas`, `s-1`, `1/s`, `dyn/cm2`, `lbf/100 ft²`, `µNm`.
+#[must_use]
 pub fn spelled(text: &str) -> Option<Unit> {
     parsed(text).ok()
 }

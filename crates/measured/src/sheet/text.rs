@@ -9,6 +9,9 @@ use crate::MeasuredError;
 const LARGEST: u64 = 64 << 20;
 
 /// The text of a file: UTF-8, UTF-16 with its mark, or letters and signs of Windows-1252, as spreadsheets write them.
+///
+/// # Errors
+/// Files that cannot be read, are too large, or are no text.
 pub fn read(path: &Path) -> Result<String, MeasuredError> {
     let mut bytes = Vec::new();
     std::fs::File::open(path)

@@ -136,9 +136,10 @@ pub fn spectrum(table: &SpectrumTable, request: &SpectrumRequest) -> Result<Meas
     };
     let SpectrumRequest { modes, equilibrium, .. } = *request;
     let fit = fit_spectrum(data, SpectrumOptions { modes, equilibrium, ..SpectrumOptions::default() })?;
-    let continuous = match equilibrium {
-        true => Err("it is that of a liquid".to_owned()),
-        false => fit_continuous(data).map_err(|error| error.to_string()),
+    let continuous = if equilibrium {
+        Err("it is that of a liquid".to_owned())
+    } else {
+        fit_continuous(data).map_err(|error| error.to_string())
     };
     let model = |at: f64| match response {
         Response::Oscillation => [fit.spectrum.storage_modulus(at), fit.spectrum.loss_modulus(at)],

@@ -162,13 +162,10 @@ fn modulus(sheet: &Sheet, at: usize, notes: &mut Vec<String>) -> Result<Column, 
         notes.push(format!("`{}` has no unit: read as Pa", sheet.headings[at].written));
         return Ok(Column { at, factor: 1.0 });
     };
-    match spelled(text).filter(|unit| unit.dimension == Dimension::PRESSURE) {
-        Some(unit) => Ok(Column { at, factor: unit.to_si(1.0) }),
-        None => {
-            let valid = format!("one of {}", units_of(Dimension::PRESSURE));
-            Err(TableMistake::new(sheet.header_line, unknown(text), valid))
-        }
-    }
+    let unit = spelled(text).filter(|unit| unit.dimension == Dimension::PRESSURE);
+    let valid = || format!("one of {}", units_of(Dimension::PRESSURE));
+    let unit = unit.ok_or_else(|| TableMistake::new(sheet.header_line, unknown(text), valid()))?;
+    Ok(Column { at, factor: unit.to_si(1.0) })
 }
 
 /// The frequency or the time.
