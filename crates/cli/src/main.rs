@@ -28,7 +28,7 @@ mod sweeps;
 
 use std::process::ExitCode;
 
-use clap::Parser as _;
+use clap::{CommandFactory as _, Parser as _};
 
 use arguments::{Arguments, Command};
 
@@ -57,8 +57,8 @@ fn main() -> ExitCode {
         Command::Specimen(arguments) => specimens::load(&arguments),
         Command::Register(arguments) => register::register(&arguments),
         Command::Schema(arguments) => commands::schema(&arguments),
-        Command::Completions(arguments) => shell::completions(&arguments),
-        Command::Manual(arguments) => shell::manual(&arguments),
+        Command::Completions(arguments) => shell::completions(&arguments, Arguments::command()),
+        Command::Manual(arguments) => shell::manual(&arguments, Arguments::command()),
     };
     match commands::whole(exit) {
         Exit::Done => ExitCode::SUCCESS,

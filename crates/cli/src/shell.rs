@@ -1,10 +1,9 @@
 //! Completions of shells, and pages of the manual.
 
-use clap::{Args, CommandFactory as _};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
 use crate::Exit;
-use crate::arguments::Arguments;
 use crate::commands::{note, print};
 
 #[derive(Debug, Args)]
@@ -13,9 +12,9 @@ pub(crate) struct CompletionsArguments {
     pub(crate) shell: Shell,
 }
 
-pub(crate) fn completions(arguments: &CompletionsArguments) -> Exit {
+pub(crate) fn completions(arguments: &CompletionsArguments, mut program: Command) -> Exit {
     let mut text = Vec::new();
-    clap_complete::generate(arguments.shell, &mut Arguments::command(), "piola", &mut text);
+    clap_complete::generate(arguments.shell, &mut program, "piola", &mut text);
     print(&String::from_utf8_lossy(&text));
     Exit::Done
 }
@@ -26,14 +25,13 @@ pub(crate) struct ManualArguments {
     pub(crate) command: Option<String>,
 }
 
-pub(crate) fn manual(arguments: &ManualArguments) -> Exit {
-    let mut program = Arguments::command();
+pub(crate) fn manual(arguments: &ManualArguments, mut program: Command) -> Exit {
     program.build();
     let page = match arguments.command.as_deref() {
         None => program,
         Some(name) => {
             let Some(command) = program.find_subcommand(name) else {
-                let names: Vec<&str> = program.get_subcommands().map(clap::Command::get_name).collect();
+                let names: Vec<&str> = program.get_subcommands().map(Command::get_name).collect();
                 note(&format!("error: no command is called `{name}`; valid: {}", names.join(", ")));
                 return Exit::Invalid;
             };
