@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use piola_integrators::internal::{check_run, equal_steps};
+use piola_integrators::internal::check_run;
 use piola_integrators::{Ending, IntegratorsError, Report, State, Step};
 use piola_numerics::Real;
 
@@ -28,12 +28,11 @@ pub(crate) fn take_checked_steps<T: Real, E>(
     mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     mut advance: impl FnMut(&mut State<T>, f64) -> Result<u64, IntegratorsError<E>>,
 ) -> Result<Report, IntegratorsError<E>> {
-    let start = state.time;
-    let (steps, h) = equal_steps(start, end, step)?;
+    let (steps, taken) = state.begin_equal_steps(end, step)?;
     let mut report = Report::begin();
-    for number in 1..=steps {
-        report.evaluations += advance(state, h)?;
-        state.set_time(if number == steps { end } else { start + h * number as f64 });
+    for number in 1..=steps.count - taken {
+        report.evaluations += advance(state, steps.length)?;
+        state.set_time(steps.time(taken + number));
         report.steps = number;
         if observer(Step { number, time: state.time, values: &state.values }).is_break() {
             report.ending = Ending::Stopped;

@@ -118,7 +118,7 @@ impl RunSoFar {
         [previous_step, expected]: [f64; 2],
     ) -> Checkpoint<T> {
         let Self { report, time_carry, start, next, best } = *self;
-        let state = State { time, values: values.to_vec(), carry: carry.to_vec(), time_carry };
+        let state = State { time, values: values.to_vec(), carry: carry.to_vec(), time_carry, run: None };
         Checkpoint { state, report, memory, numbers: vec![start, next.abs(), best, previous_step, expected] }
     }
 }

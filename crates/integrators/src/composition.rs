@@ -26,7 +26,7 @@ use core::ops::ControlFlow;
 use piola_numerics::Real;
 
 use crate::splitting::{MOST_STAGES, SplittingStage};
-use crate::state::{check_finite, check_run, check_step, compensated_add, equal_steps};
+use crate::state::{check_finite, check_run, check_step, compensated_add};
 use crate::{Ending, IntegratorsError, Order, Report, Separable, SplittingScheme, State, Step};
 
 /// An explicit symplectic composition, or another [`SplittingScheme`], with a fixed step.
@@ -111,7 +111,8 @@ impl<T: Real> Composition<T> {
     crate::unobserved_run!(F: Separable<T>, field: &mut F, IntegratorsError<F::Error>);
 
     /// Integrates to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is
-    /// earlier than the state's time. The observer sees every step and may stop the run.
+    /// earlier than the state's time. The observer sees every step and may stop the run. Continued to the same end, a run whose forces
+    /// do not depend on the time goes on with the same steps, to the last bit.
     ///
     /// # Errors
     /// The state does not fit or is not finite, the step is too small to advance the time, or the field fails
@@ -124,13 +125,12 @@ impl<T: Real> Composition<T> {
         mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
         check_run(2 * field.freedom(), state, end)?;
-        let start = state.time;
-        let (steps, h) = equal_steps(start, end, self.step)?;
+        let (steps, taken) = state.begin_equal_steps(end, self.step)?;
         self.begin(field.freedom());
         let mut report = Report::begin();
-        for number in 1..=steps {
-            report.evaluations += self.advance(field, state, h)?;
-            state.set_time(if number == steps { end } else { start + h * number as f64 });
+        for number in 1..=steps.count - taken {
+            report.evaluations += self.advance(field, state, steps.length)?;
+            state.set_time(steps.time(taken + number));
             report.steps = number;
             if observer(Step { number, time: state.time, values: &state.values }).is_break() {
                 report.ending = Ending::Stopped;

@@ -16,6 +16,12 @@ use crate::field::largest_lane;
 /// Time and values may be changed between runs; the carry, at most half an ulp of the old value, is then
 /// still added. Where that matters make a new state.
 ///
+/// A run of equal steps that an observer stopped goes on with the same steps, to the last bit, when the same method continues it to
+/// the same end: the state knows its steps, also after it was written and read (feature `serde`). This holds for methods that keep
+/// nothing but the state from step to step: compositions and splittings, and in `piola-geometric` `MuntheKaas`, `CommutatorFree` and
+/// the sweeps of `LobattoPair`. Methods that begin a step from what the one before told go on with the same steps to the tolerance of
+/// their iteration. Adaptive methods have a [`Checkpoint`](crate::Checkpoint).
+///
 /// # Example
 /// ```
 /// use piola_integrators::State;
@@ -23,7 +29,7 @@ use crate::field::largest_lane;
 /// assert_eq!(state.values, [1.0, 0.0]);
 /// # Ok::<(), piola_integrators::IntegratorsError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Unchecked<T>", into = "Unchecked<T>"))]
 #[cfg_attr(
@@ -39,6 +45,51 @@ pub struct State<T = f64> {
     #[doc(hidden)]
     pub carry: Vec<T>,
     pub(crate) time_carry: f64,
+    /// The equal steps that the last run took or was to take.
+    pub(crate) run: Option<EqualSteps>,
+}
+
+/// Equal steps from one time to another.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct EqualSteps {
+    start: f64,
+    end: f64,
+    /// The longest step that was asked for.
+    longest: f64,
+    /// The step.
+    pub length: f64,
+    /// Their number.
+    pub count: u64,
+}
+
+impl EqualSteps {
+    /// The time at the end of a step, counted from 1.
+    #[must_use]
+    pub fn time(&self, number: u64) -> f64 {
+        if number == self.count { self.end } else { self.start + self.length * number as f64 }
+    }
+
+    /// The steps that are behind a time, if it ends one of them.
+    fn behind(&self, time: f64) -> Option<u64> {
+        let steps = ((time - self.start) / self.length).round();
+        if !(0.0 < steps && steps < self.count as f64) {
+            return None;
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and a count")]
+        let steps = steps as u64;
+        self.time(steps).total_cmp(&time).is_eq().then_some(steps)
+    }
+}
+
+/// States are equal whose times and values are, whatever runs made them.
+impl<T: PartialEq> PartialEq for State<T> {
+    fn eq(&self, other: &Self) -> bool {
+        let are_same_times = self.time.eq(&other.time) && self.time_carry.eq(&other.time_carry);
+        are_same_times && self.values == other.values && self.carry == other.carry
+    }
 }
 
 impl<T: Real> State<T> {
@@ -48,7 +99,7 @@ impl<T: Real> State<T> {
     /// [`IntegratorsError::NotFinite`].
     pub fn new(t: f64, values: Vec<T>) -> Result<Self, IntegratorsError> {
         let carry = vec![T::zero(); values.len()];
-        let state = Self { time: t, values, carry, time_carry: 0.0 };
+        let state = Self { time: t, values, carry, time_carry: 0.0, run: None };
         state.check()?;
         Ok(state)
     }
@@ -69,6 +120,29 @@ impl<T: Real> State<T> {
         compensated_add(&mut self.time, &mut self.time_carry, step);
     }
 
+    /// The fewest equal steps to `end` that are no longer than `longest`, and how many of them were taken: those of the run that the
+    /// state is in, if it was to the same end with the same longest step.
+    ///
+    /// # Errors
+    /// As [`equal_steps`].
+    #[doc(hidden)]
+    pub fn begin_equal_steps<E>(&mut self, end: f64, longest: f64) -> Result<(EqualSteps, u64), IntegratorsError<E>> {
+        let is_same = |run: &EqualSteps| run.end.total_cmp(&end).is_eq() && run.longest.total_cmp(&longest).is_eq();
+        if let Some((run, taken)) = self
+            .run
+            .filter(is_same)
+            .and_then(|run| Some((run, run.behind(self.time)?)))
+            .filter(|_| self.time_carry.abs() <= 0.0)
+        {
+            return Ok((run, taken));
+        }
+        let start = self.time;
+        let (count, length) = equal_steps(start, end, longest)?;
+        let run = EqualSteps { start, end, longest, length, count };
+        self.run = Some(run);
+        Ok((run, 0))
+    }
+
     #[doc(hidden)]
     pub fn set_time(&mut self, time: f64) {
         self.time = time;
@@ -85,28 +159,37 @@ struct Unchecked<T> {
     values: Vec<T>,
     carry: Vec<T>,
     time_carry: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    run: Option<EqualSteps>,
 }
 
 #[cfg(feature = "serde")]
 impl<T: Real> TryFrom<Unchecked<T>> for State<T> {
     type Error = IntegratorsError;
     fn try_from(unchecked: Unchecked<T>) -> Result<Self, IntegratorsError> {
-        let Unchecked { time, values, carry, time_carry } = unchecked;
+        let Unchecked { time, values, carry, time_carry, run } = unchecked;
         if carry.len() != values.len() {
             let (expected, found) = (values.len(), carry.len());
             return Err(IntegratorsError::WrongLength { quantity: "carry", expected, found });
         }
         check_finite("carry", None, &carry)?;
         check_time("time_carry", time_carry)?;
-        Ok(Self { carry, time_carry, ..Self::new(time, values)? })
+        if let Some(EqualSteps { start, end, longest, length, .. }) = run {
+            for (quantity, value) in
+                [("run.start", start), ("run.end", end), ("run.longest", longest), ("run.length", length)]
+            {
+                check_time(quantity, value)?;
+            }
+        }
+        Ok(Self { carry, time_carry, run, ..Self::new(time, values)? })
     }
 }
 
 #[cfg(feature = "serde")]
 impl<T> From<State<T>> for Unchecked<T> {
     fn from(state: State<T>) -> Self {
-        let State { time, values, carry, time_carry } = state;
-        Self { time, values, carry, time_carry }
+        let State { time, values, carry, time_carry, run } = state;
+        Self { time, values, carry, time_carry, run }
     }
 }
 

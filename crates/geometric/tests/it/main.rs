@@ -1,5 +1,6 @@
 //! Tests of the methods that keep what the motion keeps: one binary, one module for each method.
 
+mod continued;
 mod discrete_gradient;
 mod gauss_collocation;
 mod lie_group;

@@ -244,7 +244,7 @@ impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
         let ends = &self.memory[P::STAGES * n..];
         let (values, carry) = (row(ends, Rows::TRIAL, n).to_vec(), row(ends, Rows::TRIAL + 1, n).to_vec());
         Checkpoint {
-            state: State { time, values, carry, time_carry },
+            state: State { time, values, carry, time_carry, run: None },
             report,
             memory: row(&self.memory, P::END, n).to_vec(),
             numbers: core::iter::once(&next).chain(&self.magnitudes_at_end).copied().collect(),

@@ -94,6 +94,7 @@ impl<'a, P: NystromPair, T: Real, F: SecondOrder<T>> NystromStep<'a, P, T, F> {
                 values: self.values().to_vec(),
                 carry: self.rows(Rows::TRIAL + 2, 2).to_vec(),
                 time_carry,
+                run: None,
             },
             report,
             memory: row(&self.method.memory, P::END, n).to_vec(),

@@ -3,8 +3,8 @@
 use core::ops::ControlFlow;
 
 use piola_integrators::{
-    Checkpoint, DormandPrince853, Field, GaussLegendre16, GaussRadau15, IntegratorsError, Nystrom86, Nystrom1210,
-    SecondOrder, State, Tolerance, Verner98,
+    Checkpoint, Composition, DormandPrince853, Field, GaussLegendre16, GaussRadau15, IntegratorsError, Nystrom86,
+    Nystrom1210, Order, SecondOrder, SplittingScheme, State, Step, Tolerance, Verner98,
 };
 use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close};
@@ -203,4 +203,53 @@ fn a_checkpoint_whose_next_step_is_not_positive_is_refused() {
     let kept: Checkpoint = serde_json::from_value(value).unwrap();
     let run = Nystrom86::new(tolerance).resume(&mut kepler(), &kept, &mut state, END, |_| ControlFlow::Continue(()));
     assert_eq!(run, Err(IntegratorsError::NotPositive { quantity: "checkpoint.numbers", value: -0.5 }));
+}
+
+/// Writes and reads a state, where the feature allows it.
+#[cfg(feature = "serde")]
+fn state_written_and_read(state: &State) -> State {
+    serde_json::from_str(&serde_json::to_string(state).unwrap()).unwrap()
+}
+#[cfg(not(feature = "serde"))]
+fn state_written_and_read(state: &State) -> State {
+    state.clone()
+}
+
+#[test]
+fn stopped_runs_of_equal_steps_go_on_with_the_same_steps() {
+    let schemes = [SplittingScheme::Composition(Order::Two), SplittingScheme::Composition(Order::Eight)]
+        .into_iter()
+        .chain([SplittingScheme::Composition10, SplittingScheme::Nystrom6]);
+    for scheme in schemes {
+        let method = || Composition::with_scheme(scheme, 0.07).unwrap();
+        let start = || State::new(0.25, kepler_at(0.2, 0.0).to_vec()).unwrap();
+        let mut whole = start();
+        let report = method().integrate_to(&mut kepler(), &mut whole, 7.0).unwrap();
+        for stop in [1, 13, report.steps - 1] {
+            let mut state = start();
+            let first = method()
+                .integrate(&mut kepler(), &mut state, 7.0, |step| {
+                    if step.number == stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                })
+                .unwrap();
+            let mut state = state_written_and_read(&state);
+            let second = method().integrate_to(&mut kepler(), &mut state, 7.0).unwrap();
+            assert_eq!((state, first.steps + second.steps), (whole.clone(), report.steps), "{scheme}, {stop}");
+        }
+    }
+}
+
+#[test]
+fn a_run_to_another_end_counts_its_own_steps() {
+    let mut method = Composition::new(Order::Four, 0.07).unwrap();
+    let mut state = State::new(0.0, kepler_at(0.2, 0.0).to_vec()).unwrap();
+    let stop = |step: Step<'_>| if step.number == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    method.integrate(&mut kepler(), &mut state, 7.0, stop).unwrap();
+    let mut other = State::new(state.time, state.values.clone()).unwrap();
+    other.carry.clone_from(&state.carry);
+    let reports = [&mut state, &mut other].map(|state| method.integrate_to(&mut kepler(), state, 3.0).unwrap());
+    assert_eq!((&state, reports[0]), (&other, reports[1]));
+    // A time that is none of the run's own begins another run.
+    state.time += 0.01;
+    assert_eq!(method.integrate_to(&mut kepler(), &mut state, 3.0).unwrap().steps, 1);
 }

@@ -128,8 +128,18 @@ const FREQUENCY: &[&str] = &["frequency", "freq", "f", "ν"];
 const ANGULAR: &[&str] = &["angular frequency", "angular freq", "ang frequency", "omega", "ω", "w"];
 const TIME: &[&str] = &["time", "t", "step time"];
 const STORAGE: &[&str] = &["storage modulus", "g'", "g′", "g storage", "gprime", "g prime", "e'", "elastic modulus"];
-const LOSS: &[&str] =
-    &["loss modulus", "g''", "g″", "g′′", "g loss", "gprimeprime", "gdoubleprime", "g double prime", "viscous modulus"];
+const LOSS: &[&str] = &[
+    "loss modulus",
+    "g''",
+    "g″",
+    "g′′",
+    "g loss",
+    "gprimeprime",
+    "gdoubleprime",
+    "g double prime",
+    "g\"",
+    "viscous modulus",
+];
 const RELAXATION: &[&str] = &["relaxation modulus", "g(t)", "gt", "g", "modulus"];
 const TEMPERATURE: &[&str] = &["temperature", "temp", "θ"];
 const ALL: [&[&str]; 7] = [FREQUENCY, ANGULAR, TIME, STORAGE, LOSS, RELAXATION, TEMPERATURE];
