@@ -28,7 +28,7 @@ const VALID: &str = "NAME:PARAMETER=VALUE,…, as bingham:yield_stress=3 Pa,plas
 /// A fluid, as `bingham:yield_stress=3,plastic_viscosity=0.05`, a JSON file, or a fit's `summary.json` with `#bingham`.
 ///
 /// # Errors
-/// [`ForwardError::Argument`] for names, parameters or units that are not those of a fluid; [`ForwardError::Unreadable`] and the like for
+/// [`ForwardError::Argument`] for names, parameters or units that are not those of a fluid; [`ForwardError::Measured`] for
 /// files.
 ///
 /// # Example

@@ -22,7 +22,7 @@ const VALID: &str = "NAME:PARAMETER=VALUE,…, as mooney-rivlin:c10=0.3 MPa,c01=
 ///
 /// # Errors
 /// [`ForwardError::Solid`] and [`ForwardError::Argument`] for names, parameters or units that are not those of a solid;
-/// [`ForwardError::Unreadable`] and the like for files.
+/// [`ForwardError::Measured`] for files.
 ///
 /// # Example
 /// ```

@@ -87,8 +87,8 @@ fn logarithms(curve: &IsothermalCurve<'_>) -> Result<Vec<[f64; 2]>, SpectraError
 
 /// ln y of a curve at ln ω between its points; `None` outside.
 fn between(curve: &[[f64; 2]], at: f64) -> Option<f64> {
-    let next = curve.iter().position(|point| at <= point[0])?;
-    let [x, y] = curve[next];
+    let next = curve.partition_point(|point| point[0] < at);
+    let [x, y] = *curve.get(next)?;
     if next == 0 {
         return (x <= at).then_some(y);
     }

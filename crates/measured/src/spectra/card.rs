@@ -38,7 +38,11 @@ pub fn prony(program: Program, spectrum: &RelaxationSpectrum) -> Result<String, 
     let mut text = String::new();
     match program {
         Program::Abaqus => {
-            let _ = writeln!(text, "** instantaneous shear modulus {glassy:?} Pa\n*VISCOELASTIC, TIME=PRONY");
+            let _ = writeln!(
+                text,
+                "** instantaneous shear modulus {glassy:?} Pa; the elastic law beside it needs MODULI=INSTANTANEOUS\n\
+                 *VISCOELASTIC, TIME=PRONY"
+            );
             for [share, time] in terms {
                 let _ = writeln!(text, "{share:?}, 0.0, {time:?}");
             }

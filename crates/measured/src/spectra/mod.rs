@@ -90,6 +90,8 @@ pub struct MeasuredSpectrum {
     pub superposition: Option<Superposition>,
     /// The discrete spectrum.
     pub fit: SpectrumFit,
+    /// Whether the number of modes was chosen, and is the most that was tried.
+    pub is_at_most: bool,
     /// The continuous spectrum, or why there is none, in words.
     pub continuous: Result<ContinuousSpectrum, String>,
     /// All rows, in the order of ω or t.
@@ -135,7 +137,9 @@ pub fn spectrum(table: &SpectrumTable, request: &SpectrumRequest) -> Result<Meas
         Response::Relaxation => SpectrumData::Relaxation { times: &at, moduli: &first },
     };
     let SpectrumRequest { modes, equilibrium, .. } = *request;
-    let fit = fit_spectrum(data, SpectrumOptions { modes, equilibrium, ..SpectrumOptions::default() })?;
+    let options = SpectrumOptions { modes, equilibrium, ..SpectrumOptions::default() };
+    let fit = fit_spectrum(data, options)?;
+    let is_at_most = modes.is_none() && fit.spectrum.modes().len() == options.most_modes;
     let continuous = if equilibrium {
         Err("it is that of a liquid".to_owned())
     } else {
@@ -147,7 +151,7 @@ pub fn spectrum(table: &SpectrumTable, request: &SpectrumRequest) -> Result<Meas
     };
     let rows = rows.into_iter().map(|(temperature, row)| ShiftedRow { temperature, row, model: model(row.at) });
     let rows = rows.collect();
-    Ok(MeasuredSpectrum { response, superposition, fit, continuous, rows })
+    Ok(MeasuredSpectrum { response, superposition, fit, is_at_most, continuous, rows })
 }
 
 /// Shifts of several isotherms.
@@ -156,12 +160,14 @@ fn superposed(table: &SpectrumTable, request: &SpectrumRequest) -> Result<Option
     let wanted = request.reference_temperature;
     let reference = match wanted {
         None => temperatures.len() / 2,
-        Some(wanted) => temperatures.iter().position(|found| (found - wanted).abs() < 0.5).ok_or_else(|| {
-            MeasuredError::Argument {
+        Some(wanted) => {
+            let far = |index: &usize| (temperatures[*index] - wanted).abs();
+            let nearest = (0..temperatures.len()).min_by(|a, b| far(a).total_cmp(&far(b)));
+            nearest.filter(|index| far(index) < 0.5).ok_or_else(|| MeasuredError::Argument {
                 argument: format!("reference temperature {wanted} K"),
                 valid: "a temperature that was measured",
-            }
-        })?,
+            })?
+        }
     };
     if temperatures.len() < 2 {
         return Ok(None);

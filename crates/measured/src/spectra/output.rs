@@ -50,7 +50,7 @@ impl MeasuredSpectrum {
             "read": table.notes,
             "superposition": self.superposition.as_ref().map(shifts),
             "modes": modes,
-            "equilibrium_modulus": fit.spectrum.glassy_modulus() - sum(&fit.spectrum),
+            "equilibrium_modulus": fit.spectrum.equilibrium_modulus(),
             "equilibrium_interval": fit.equilibrium_interval,
             "glassy_modulus": fit.spectrum.glassy_modulus(),
             "zero_shear_viscosity": fit.spectrum.zero_shear_viscosity(),
@@ -58,6 +58,7 @@ impl MeasuredSpectrum {
             "relative_error": fit.relative_error,
             "converged": fit.outcome.is_converged(),
             "tried": tried,
+            "most_modes_reached": self.is_at_most,
             "continuous": continuous,
         });
         let mut text = serde_json::to_string_pretty(&summary).unwrap_or_default();
@@ -88,7 +89,7 @@ impl MeasuredSpectrum {
             let _ = writeln!(text, "{:>14.6e}{:>14.6e}   {modulus}  {time}", mode.modulus, mode.relaxation_time);
         }
         if let Some(found) = fit.equilibrium_interval {
-            let modulus = fit.spectrum.glassy_modulus() - sum(&fit.spectrum);
+            let modulus = fit.spectrum.equilibrium_modulus();
             let _ = writeln!(text, "{modulus:>14.6e}{:>14}   {}", "∞", interval(Some(found)));
         }
         let count = fit.spectrum.modes().len();
@@ -99,6 +100,9 @@ impl MeasuredSpectrum {
             100.0 * fit.relative_error,
             fit.outcome.reason()
         );
+        if self.is_at_most {
+            text.push_str("These are the most modes that were tried; --modes asks for more.\n");
+        }
         if let (Some(viscosity), Some(compliance)) =
             (fit.spectrum.zero_shear_viscosity(), fit.spectrum.steady_state_compliance())
         {
@@ -109,9 +113,10 @@ impl MeasuredSpectrum {
             Ok(found) => {
                 let _ = writeln!(
                     text,
-                    "continuous spectrum: {:.1} parameters told by the data, RMS {:.2} %",
+                    "continuous spectrum: {:.1} parameters told by the data, RMS {:.2} %, search: {}",
                     found.effective_parameters,
-                    100.0 * found.relative_error
+                    100.0 * found.relative_error,
+                    found.outcome.reason()
                 );
             }
             Err(why) => {
@@ -176,11 +181,6 @@ impl MeasuredSpectrum {
         }
         text
     }
-}
-
-/// Σ gᵢ.
-fn sum(spectrum: &piola_spectra::RelaxationSpectrum) -> f64 {
-    spectrum.modes().iter().map(|mode| mode.modulus).sum()
 }
 
 fn interval(found: Option<[f64; 2]>) -> String {

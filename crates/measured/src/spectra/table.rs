@@ -127,7 +127,7 @@ impl SpectrumTable {
 const FREQUENCY: &[&str] = &["frequency", "freq", "f", "ν"];
 const ANGULAR: &[&str] = &["angular frequency", "angular freq", "ang frequency", "omega", "ω", "w"];
 const TIME: &[&str] = &["time", "t", "step time"];
-const STORAGE: &[&str] = &["storage modulus", "g'", "g′", "g storage", "gprime", "g prime", "e'", "elastic modulus"];
+const STORAGE: &[&str] = &["storage modulus", "g'", "g′", "g storage", "gprime", "g prime"];
 const LOSS: &[&str] = &[
     "loss modulus",
     "g''",
@@ -195,13 +195,20 @@ fn abscissa(sheet: &Sheet, at: usize, response: Response, notes: &mut Vec<String
     let is_angular = ANGULAR.contains(&heading.plain.as_str());
     let rate = Dimension { time: -1, ..Dimension::NONE };
     match unit {
-        // A cycle is 2π.
-        Some(("Hz", _)) => Ok(Column { at, factor: TAU }),
-        Some(("kHz", _)) => Ok(Column { at, factor: 1e3 * TAU }),
+        // A cycle is 2π; an angular frequency has no cycles.
+        Some(("Hz", _)) if !is_angular => Ok(Column { at, factor: TAU }),
+        Some(("kHz", _)) if !is_angular => Ok(Column { at, factor: 1e3 * TAU }),
+        Some((text @ ("Hz" | "kHz"), _)) => {
+            let what = format!("`{}` is in {text}", heading.written);
+            Err(TableMistake::new(sheet.header_line, what, "`angular frequency [rad/s]` or `frequency [Hz]`"))
+        }
         Some((_, Some(unit))) if unit.dimension == Dimension::ANGULAR_RATE => {
             Ok(Column { at, factor: unit.to_si(1.0) })
         }
         Some((_, Some(unit))) if unit.dimension == rate => {
+            if !is_angular {
+                notes.push(format!("`{}` is read as cycles: ω = 2π f", heading.written));
+            }
             Ok(Column { at, factor: unit.to_si(1.0) * if is_angular { 1.0 } else { TAU } })
         }
         None if is_angular => {

@@ -134,6 +134,8 @@ fn mistakes_of_tables_of_moduli_are_named_with_their_line() {
         ("omega [rad/s],G' [Pa],G'' [Pa]\n", "no rows"),
         ("temperature [°R],omega [rad/s],G' [Pa],G'' [Pa]\n1,1,2,3\n", "valid: °C, K or °F"),
         ("# temperature: warm\nomega [rad/s],G' [Pa],G'' [Pa]\n1,2,3\n", "the temperature is `warm`"),
+        ("angular frequency [Hz],G' [Pa],G'' [Pa]\n1,2,3\n", "`angular frequency [Hz]` is in Hz"),
+        ("omega [rad/s],E' [Pa],E'' [Pa]\n1,2,3\n", "no column is a modulus"),
         ("stretch,stress\n1,2\n", "melt.csv"),
     ] {
         let found = SpectrumTable::parse("melt.csv", text).map_or_else(|error| error.to_string(), |_| String::new());
@@ -158,6 +160,7 @@ fn files_of_a_measured_melt_make_one_curve() -> Result<(), Box<dyn std::error::E
     // Two shifts beside the reference determine two constants, and tell nothing of their errors.
     let law = superposition.williams_landel_ferry.as_ref().map_err(Clone::clone)?;
     assert!(law.intervals == [None; 2] && (6.0..8.0).contains(&law.law.strength()), "{law:?}");
+    assert!(found.is_at_most && found.table(&table).contains("the most modes that were tried"));
     assert!(found.fit.relative_error < 0.05, "{}", found.fit.relative_error);
     let viscosity = found.fit.spectrum.zero_shear_viscosity().ok_or("a liquid")?;
     assert!((3e5..4e5).contains(&viscosity), "{viscosity}");
