@@ -178,39 +178,46 @@ any_fluid! {
     }
 }
 
-// Not inlined: a flow asks at a dozen places, and each would hold all the fluids.
 impl ViscometricFluid for AnyFluid {
     const NAME: &'static str = "fluid";
     const NORMAL_STRESSES: bool = true;
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         chosen!(self, fluid => fluid.shear_stress(shear_rate))
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma1<T: Real>(&self, shear_rate: T) -> T {
         chosen!(self, fluid => fluid.sigma1(shear_rate))
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma2<T: Real>(&self, shear_rate: T) -> T {
         chosen!(self, fluid => fluid.sigma2(shear_rate))
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_normal_stress_difference<T: Real>(&self, shear_rate: T) -> T {
         chosen!(self, fluid => fluid.first_normal_stress_difference(shear_rate))
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn second_normal_stress_difference<T: Real>(&self, shear_rate: T) -> T {
         chosen!(self, fluid => fluid.second_normal_stress_difference(shear_rate))
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn yield_stress(&self) -> f64 {
         chosen!(self, fluid => ViscometricFluid::yield_stress(fluid))
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn viscosity<T: Real>(&self, shear_rate: T) -> T {
         chosen!(self, fluid => fluid.viscosity(shear_rate))
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         chosen!(self, fluid => fluid.shear_rate(shear_stress))
     }

@@ -22,21 +22,21 @@ pub enum ForwardError {
         /// The valid arguments in words.
         valid: &'static str,
     },
-    /// A fluid cannot be made of what is given.
+    /// The text or the file names no fluid, or the fluid refuses one of its parameters.
     #[error("`{argument}` is no fluid: {cause}")]
     Fluid {
         /// The argument.
         argument: String,
-        /// What is wrong.
+        /// The reason, in words.
         cause: String,
     },
-    /// A solid cannot be made of what is given.
+    /// The text or the file names no solid, or the solid refuses one of its parameters.
     #[cfg(feature = "specimens")]
     #[error("`{argument}` is no solid: {cause}")]
     Solid {
         /// The argument.
         argument: String,
-        /// What is wrong.
+        /// The reason, in words.
         cause: String,
     },
     /// A flow lacks one of its sizes.

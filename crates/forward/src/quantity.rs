@@ -3,7 +3,7 @@
 use piola_document::units::{Dimension, Unit};
 use piola_measured::internal::spelled;
 
-/// A number with a unit of this dimension, in SI; without a unit where there is no dimension.
+/// Reads a number with its unit and converts it to SI. A pure number has no unit.
 pub(crate) fn value(text: &str, dimension: Dimension) -> Option<f64> {
     let (number, unit) = parts(text)?;
     let unit = if unit.is_empty() { Unit::ONE } else { spelled(unit)? };

@@ -18,8 +18,8 @@ use crate::field::largest_lane;
 ///
 /// A run of equal steps that an observer stopped goes on with the same steps, to the last bit, when the same method continues it to
 /// the same end: the state knows its steps, also after it was written and read (feature `serde`). This holds for methods that keep
-/// nothing but the state from step to step: compositions and splittings, and in `piola-geometric` `MuntheKaas`, `CommutatorFree` and
-/// the sweeps of `LobattoPair`. Methods that begin a step from what the one before told go on with the same steps to the tolerance of
+/// nothing but the state from step to step: in `piola-geometric` `MuntheKaas`, `CommutatorFree` and the sweeps of `LobattoPair`; and
+/// for compositions and splittings where no force depends on the time. Methods that begin a step from what the one before told go on with the same steps to the tolerance of
 /// their iteration. Adaptive methods have a [`Checkpoint`](crate::Checkpoint).
 ///
 /// # Example
@@ -45,27 +45,40 @@ pub struct State<T = f64> {
     #[doc(hidden)]
     pub carry: Vec<T>,
     pub(crate) time_carry: f64,
-    /// The equal steps that the last run took or was to take.
-    pub(crate) run: Option<EqualSteps>,
+    /// The last run of equal steps: it may have been stopped.
+    pub(crate) run: Option<Run>,
+}
+
+/// What a run of equal steps was asked for.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub(crate) struct Run {
+    start: f64,
+    end: f64,
+    /// The longest step.
+    longest: f64,
 }
 
 /// Equal steps from one time to another.
 #[doc(hidden)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[derive(Clone, Copy, Debug)]
 pub struct EqualSteps {
     start: f64,
     end: f64,
-    /// The longest step that was asked for.
-    longest: f64,
-    /// The step.
+    /// The step, s.
     pub length: f64,
     /// Their number.
     pub count: u64,
 }
 
 impl EqualSteps {
+    /// The fewest that are no longer than was asked for.
+    fn of<E>(Run { start, end, longest }: Run) -> Result<Self, IntegratorsError<E>> {
+        let (count, length) = equal_steps(start, end, longest)?;
+        Ok(Self { start, end, length, count })
+    }
+
     /// The time at the end of a step, counted from 1.
     #[must_use]
     pub fn time(&self, number: u64) -> f64 {
@@ -127,20 +140,17 @@ impl<T: Real> State<T> {
     /// As [`equal_steps`].
     #[doc(hidden)]
     pub fn begin_equal_steps<E>(&mut self, end: f64, longest: f64) -> Result<(EqualSteps, u64), IntegratorsError<E>> {
-        let is_same = |run: &EqualSteps| run.end.total_cmp(&end).is_eq() && run.longest.total_cmp(&longest).is_eq();
-        if let Some((run, taken)) = self
-            .run
-            .filter(is_same)
-            .and_then(|run| Some((run, run.behind(self.time)?)))
-            .filter(|_| self.time_carry.abs() <= 0.0)
-        {
-            return Ok((run, taken));
+        let is_same = |run: &Run| run.end.total_cmp(&end).is_eq() && run.longest.total_cmp(&longest).is_eq();
+        if let Some(run) = self.run.filter(is_same).filter(|_| self.time_carry.abs() <= 0.0) {
+            let steps = EqualSteps::of(run)?;
+            if let Some(taken) = steps.behind(self.time) {
+                return Ok((steps, taken));
+            }
         }
-        let start = self.time;
-        let (count, length) = equal_steps(start, end, longest)?;
-        let run = EqualSteps { start, end, longest, length, count };
+        let run = Run { start: self.time, end, longest };
+        let steps = EqualSteps::of(run)?;
         self.run = Some(run);
-        Ok((run, 0))
+        Ok((steps, 0))
     }
 
     #[doc(hidden)]
@@ -160,7 +170,7 @@ struct Unchecked<T> {
     carry: Vec<T>,
     time_carry: f64,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    run: Option<EqualSteps>,
+    run: Option<Run>,
 }
 
 #[cfg(feature = "serde")]
@@ -174,12 +184,11 @@ impl<T: Real> TryFrom<Unchecked<T>> for State<T> {
         }
         check_finite("carry", None, &carry)?;
         check_time("time_carry", time_carry)?;
-        if let Some(EqualSteps { start, end, longest, length, .. }) = run {
-            for (quantity, value) in
-                [("run.start", start), ("run.end", end), ("run.longest", longest), ("run.length", length)]
-            {
-                check_time(quantity, value)?;
-            }
+        if let Some(run) = run {
+            check_time("run.start", run.start)?;
+            check_time("run.end", run.end)?;
+            check_step(run.longest)?;
+            EqualSteps::of(run)?;
         }
         Ok(Self { carry, time_carry, run, ..Self::new(time, values)? })
     }

@@ -36,7 +36,8 @@ pub use self::length::StepLength;
 ///
 /// # Accuracy
 /// Global error O(εᵒʳᵈᵉʳ), with the order of the scheme. On Kepler's ellipse of eccentricity 0.9 with σ = |q|^(3/2), Störmer–Verlet
-/// and ε = 0.1, the energy error after 10⁴ revolutions is what it was after a hundred (test `energy_of_ten_thousand_revolutions_does_not_drift`).
+/// and ε = 0.1, the energy error does not grow between 100 and 10⁴ revolutions (test
+/// `energy_of_ten_thousand_revolutions_does_not_drift`).
 ///
 /// # Example
 /// ```

@@ -253,3 +253,18 @@ fn a_run_to_another_end_counts_its_own_steps() {
     state.time += 0.01;
     assert_eq!(method.integrate_to(&mut kepler(), &mut state, 3.0).unwrap().steps, 1);
 }
+
+#[cfg(feature = "serde")]
+#[test]
+fn a_written_state_whose_run_is_impossible_is_refused() {
+    let mut state = State::new(0.0, kepler_at(0.2, 0.0).to_vec()).unwrap();
+    let mut method = Composition::new(Order::Two, 0.07).unwrap();
+    method.integrate(&mut kepler(), &mut state, 7.0, |_| ControlFlow::Break(())).unwrap();
+    let written = serde_json::to_value(&state).unwrap();
+    assert!(serde_json::from_value::<State>(written.clone()).is_ok());
+    for (name, value) in [("longest", -0.07), ("longest", 0.0), ("longest", 1e-300)] {
+        let mut wrong = written.clone();
+        wrong["run"][name] = serde_json::json!(value);
+        assert!(serde_json::from_value::<State>(wrong).is_err(), "{name} = {value}");
+    }
+}

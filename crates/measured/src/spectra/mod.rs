@@ -28,7 +28,7 @@ use piola_spectra::{
 
 use crate::MeasuredError;
 
-/// What is asked for.
+/// A request for the spectra of a table.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct SpectrumRequest {
@@ -44,7 +44,7 @@ impl SpectrumRequest {
     /// Reads a reference temperature, as `150 °C` or `423 K`.
     ///
     /// # Errors
-    /// [`MeasuredError::Argument`] for what is no temperature.
+    /// [`MeasuredError::Argument`] for a text that is not a temperature.
     pub fn at_temperature(mut self, text: &str) -> Result<Self, MeasuredError> {
         let found = table::stated_temperature(text);
         let wrong =

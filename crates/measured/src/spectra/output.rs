@@ -228,7 +228,7 @@ fn told(found: &Superposition) -> String {
             let _ = writeln!(
                 text,
                 "Arrhenius: E = {energy:.2} kJ/mol {}, RMS of ln aₜ {:.3}",
-                within.map_or_else(|| "not determined".to_owned(), |[low, high]| format!("[{low:.2}, {high:.2}]")),
+                within.map_or_else(|| "without interval".to_owned(), |[low, high]| format!("[{low:.2}, {high:.2}]")),
                 fit.error
             );
         }
@@ -241,7 +241,7 @@ fn told(found: &Superposition) -> String {
             let (strength, width) = (fit.law.strength(), fit.law.width());
             let within = |k: usize| {
                 fit.intervals[k]
-                    .map_or_else(|| "not determined".to_owned(), |[low, high]| format!("[{low:.2}, {high:.2}]"))
+                    .map_or_else(|| "without interval".to_owned(), |[low, high]| format!("[{low:.2}, {high:.2}]"))
             };
             let _ = writeln!(
                 text,
