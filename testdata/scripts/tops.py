@@ -143,4 +143,5 @@ def main():
     print(json.dumps({"meta": meta, "cases": cases}, indent=1))
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -59,6 +59,14 @@ pub enum KinematicsError {
         /// Principal moments I₁ ≤ I₂ ≤ I₃, in kg m².
         principal_moments: [f64; 3],
     },
+    /// The inertia of a symmetric top is symmetric about its axis: violated beyond rounding.
+    #[error("the inertia is not symmetric about the axis {axis:?}: its entries there differ by {difference} kg m²")]
+    NotSymmetricAbout {
+        /// The axis, in body components.
+        axis: [f64; 3],
+        /// The largest difference of an entry from that of a symmetric body, in kg m².
+        difference: f64,
+    },
     /// A quaternion or an axis has no direction.
     #[error("{quantity} has length {length}, which gives no direction")]
     NoDirection {

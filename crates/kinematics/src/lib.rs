@@ -10,6 +10,7 @@ pub mod euler_angles;
 #[cfg(feature = "serde")]
 mod finite;
 mod free_rotation;
+mod heavy_top;
 pub mod inertia;
 pub mod mesh;
 pub mod particle;
@@ -27,6 +28,7 @@ pub use attitude::Attitude;
 pub use error::KinematicsError;
 pub use euler_angles::{EulerAngles, EulerChart, EulerSequence};
 pub use free_rotation::FreeRotation;
+pub use heavy_top::HeavyTop;
 pub use inertia::Inertia;
 pub use placement::{Holonomic, Placement};
 #[cfg(feature = "glam")]

@@ -8,6 +8,7 @@ mod equations;
 mod exponential;
 mod free_rotation;
 mod golden;
+mod heavy_top;
 mod laws;
 mod meshes;
 mod orders;
