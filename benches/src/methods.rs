@@ -2,15 +2,19 @@
 
 use core::convert::Infallible;
 
+use nalgebra::Vector3;
 use piola_geometric::{AdaptiveMuntheKaas, DirectProduct, GroupField, MuntheKaas, Rotations, Translations};
 use piola_gravitation::Gravitation;
+use piola_gravitation::kepler::advance;
 use piola_gravitation::wisdom_holman::{Corrector, Splitting, WisdomHolman};
-use piola_integrators::{Field, GaussLegendre16, Order, Report, SecondOrder, State, Tolerance};
-use piola_kinematics::{Attitude, FreeRotation, Inertia};
+use piola_integrators::{
+    Field, GaussLegendre16, Nystrom1210, Order, Report, SecondOrder, State, Tolerance, TurningFrame,
+};
+use piola_kinematics::{Attitude, FreeRotation, HeavyTop, Inertia};
 use piola_numerics::Real;
 use piola_stiff::{Differentiable, ExactJacobian, RadauIia};
 
-use crate::problems::{Attraction, Problem, Top};
+use crate::problems::{Arenstorf, Attraction, Kepler, Problem, Top};
 use crate::work_precision::{Family, Method, Outcome, step_counts};
 
 /// A top as a field on the group of rotations and angular velocities.
@@ -135,7 +139,76 @@ pub fn quaternion_gauss_legendre_16(problem: &Problem<Top, 7>) -> Method<'_> {
     Method::new("Gauss–Legendre 16, quaternion", Family::GaussLegendre16, 16, decades(1, 16), run)
 }
 
-/// The closed form of a free top, which has no parameter: one evaluation at the end.
+/// The attraction of Earth and Moon alone, for the frame at rest.
+#[derive(Clone, Copy, Debug)]
+struct AttractionOfArenstorf(Arenstorf);
+
+impl<T: Real> SecondOrder<T> for AttractionOfArenstorf {
+    type Error = Infallible;
+    const VELOCITY_DEPENDENT: bool = false;
+    const FREEDOM: Option<usize> = Some(2);
+    fn freedom(&self) -> usize {
+        2
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn acceleration(&mut self, _t: T, q: &[T], _v: &[T], out: &mut [T]) -> Result<(), Infallible> {
+        self.0.attraction(q, out);
+        Ok(())
+    }
+}
+
+/// Arenstorf's orbit in the frame at rest, where forces do not depend on velocities.
+#[must_use]
+pub fn at_rest(problem: &Problem<Arenstorf, 4>) -> [Method<'_>; 2] {
+    fn run<T: Real>(
+        problem: &Problem<Arenstorf, 4>,
+        integrate: impl FnOnce(&mut TurningFrame<AttractionOfArenstorf, T>, &mut State) -> Result<Report, String>,
+    ) -> Result<Outcome, String> {
+        let text = |error: piola_integrators::IntegratorsError| error.to_string();
+        let mut frame = TurningFrame::in_plane(AttractionOfArenstorf(problem.equations), 1.0).map_err(text)?;
+        let mut state = begin(&problem.start)?;
+        frame.to_rest(&mut state).map_err(text)?;
+        let report = integrate(&mut frame, &mut state)?;
+        frame.to_turning(&mut state).map_err(text)?;
+        Ok(outcome(report, state))
+    }
+    let collocation = move |tolerance: f64| {
+        let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
+        run(problem, |frame, state| {
+            let report = GaussLegendre16::new(tolerance).integrate_to(frame, state, problem.end);
+            report.map_err(|error| error.to_string())
+        })
+    };
+    let nystrom = move |tolerance: f64| {
+        let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
+        run(problem, |frame, state| {
+            let report = Nystrom1210::new(tolerance).integrate_to(frame, state, problem.end);
+            report.map_err(|error| error.to_string())
+        })
+    };
+    [
+        Method::new("Gauss–Legendre 16, frame at rest", Family::GaussLegendre16, 16, decades(1, 16), collocation),
+        Method::new("Nyström 12(10), frame at rest", Family::Nystrom1210, 12, decades(1, 16), nystrom),
+    ]
+}
+
+/// The closed form of a symmetric top, which has no parameter: one evaluation at the end.
+#[must_use]
+pub fn closed_form_of_top(problem: &Problem<Top, 7>) -> Method<'_> {
+    let run = move |_parameter: f64| {
+        let [w, x, y, z, a, b, c] = problem.start;
+        let motion = || {
+            let inertia = Inertia::principal(problem.equations.inertia)?;
+            let attitude = Attitude::from_quaternion([w, x, y, z])?;
+            HeavyTop::new(&inertia, problem.equations.weight.into(), attitude, [a, b, c].into())
+        };
+        let state = motion().map_err(|error| error.to_string())?.at(problem.end);
+        Ok(near(problem, state))
+    };
+    Method::new("closed form", Family::ClosedForm, 8, vec![f64::EPSILON], run)
+}
+
+/// The closed form of a free top, likewise.
 #[must_use]
 pub fn closed_form(problem: &Problem<Top, 7>) -> Method<'_> {
     let run = move |_parameter: f64| {
@@ -144,13 +217,29 @@ pub fn closed_form(problem: &Problem<Top, 7>) -> Method<'_> {
             let inertia = Inertia::principal(problem.equations.inertia)?;
             FreeRotation::new(&inertia, Attitude::from_quaternion([w, x, y, z])?, [a, b, c].into())
         };
-        let (attitude, omega) = motion().map_err(|error| error.to_string())?.at(problem.end);
-        // Of both quaternions of the attitude the one near the reference.
-        let found = [attitude.w, attitude.x, attitude.y, attitude.z];
-        let along: f64 = found.iter().zip(&problem.reference).map(|(a, b)| a * b).sum();
-        let sign = 1.0_f64.copysign(along);
-        let state = found.iter().map(|x| sign * x).chain(omega.iter().copied()).collect();
-        Ok(Outcome { state, evaluations: 1, steps: 1 })
+        let state = motion().map_err(|error| error.to_string())?.at(problem.end);
+        Ok(near(problem, state))
+    };
+    Method::new("closed form", Family::ClosedForm, 8, vec![f64::EPSILON], run)
+}
+
+/// A state of a top with that of both quaternions of its attitude which is near the reference.
+fn near(problem: &Problem<Top, 7>, (attitude, omega): (Attitude<f64>, Vector3<f64>)) -> Outcome {
+    let found = [attitude.w, attitude.x, attitude.y, attitude.z];
+    let along: f64 = found.iter().zip(&problem.reference).map(|(a, b)| a * b).sum();
+    let sign = 1.0_f64.copysign(along);
+    let state = found.iter().map(|x| sign * x).chain(omega.iter().copied()).collect();
+    Outcome { state, evaluations: 1, steps: 1 }
+}
+
+/// The closed form of Kepler's motion in universal variables, likewise.
+#[must_use]
+pub fn universal_variables(problem: &Problem<Kepler, 4>) -> Method<'_> {
+    let run = move |_parameter: f64| {
+        let [x, y, u, v] = problem.start;
+        let gained = advance(problem.equations.parameter, [x, y, 0.0], [u, v, 0.0], problem.end);
+        let ([dx, dy, _], [du, dv, _]) = (gained.position, gained.velocity);
+        Ok(Outcome { state: vec![x + dx, y + dy, u + du, v + dv], evaluations: 1, steps: 1 })
     };
     Method::new("closed form", Family::ClosedForm, 8, vec![f64::EPSILON], run)
 }

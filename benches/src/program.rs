@@ -10,7 +10,10 @@ use std::path::PathBuf;
 use crate::advice::{self, Entry};
 use crate::chain::Chain;
 use crate::figure::figure;
-use crate::methods::{closed_form, on_the_group, quaternion_gauss_legendre_16, radau_iia, wisdom_holman};
+use crate::methods::{
+    at_rest, closed_form, closed_form_of_top, on_the_group, quaternion_gauss_legendre_16, radau_iia, universal_variables,
+    wisdom_holman,
+};
 use crate::problems::{self, Accelerations, Equations, Force, Problem, SpringChain};
 use crate::work_precision::{
     Curve, Method, canonical_gauss_legendre, composition, derived_dormand_prince, derived_gauss_legendre_16,
@@ -86,13 +89,16 @@ pub fn program(peers: &impl Peers) -> Result<(), Box<dyn Error>> {
     }
     for problem in [problems::kepler_round(), problems::kepler(), problems::kepler_long()] {
         if problem.name.contains(&filter) {
-            run(&problem, &separable_methods(&problem, peers, 200.0), &mut results)?;
+            let mut methods = separable_methods(&problem, peers, 200.0);
+            methods.push(universal_variables(&problem));
+            run(&problem, &methods, &mut results)?;
         }
     }
     if "arenstorf".contains(&filter) {
         let problem = problems::arenstorf()?;
         let mut methods =
             vec![dormand_prince(&problem), verner(&problem), gauss_legendre_16(&problem), gauss_radau_15(&problem)];
+        methods.extend(at_rest(&problem));
         methods.extend(COLLOCATION.map(|order| gauss_legendre(&problem, order, 200.0)));
         methods.extend(peers.of(&problem));
         run(&problem, &methods, &mut results)?;
@@ -187,9 +193,7 @@ fn tops_and_springs(peers: &impl Peers, filter: &str, results: &mut Results) -> 
             let is_free = problem.name == "free-top";
             let mut methods = vec![dormand_prince(&problem), verner(&problem), quaternion_gauss_legendre_16(&problem)];
             methods.extend(on_the_group(&problem, if is_free { 40.0 } else { 400.0 }));
-            if is_free {
-                methods.push(closed_form(&problem));
-            }
+            methods.push(if is_free { closed_form(&problem) } else { closed_form_of_top(&problem) });
             methods.extend(peers.of(&problem));
             run(&problem, &methods, results)?;
         }

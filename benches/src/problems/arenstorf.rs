@@ -12,16 +12,26 @@ pub struct Arenstorf {
     pub moon: f64,
 }
 
-impl Accelerations for Arenstorf {
+impl Arenstorf {
+    /// The attraction by Earth and Moon, in the frame that turns with them.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn accelerations<T: Real>(&self, q: &[T], v: &[T], out: &mut [T]) {
+    pub fn attraction<T: Real>(&self, q: &[T], out: &mut [T]) {
         let (moon, earth) = (T::lit(self.moon), T::lit(1.0 - self.moon));
         let (from_earth, from_moon) = (q[0] + moon, q[0] - earth);
         let height = q[1] * q[1];
         let (r1, r2) = (from_earth * from_earth + height, from_moon * from_moon + height);
         let (d1, d2) = (earth / (r1 * r1.sqrt()), moon / (r2 * r2.sqrt()));
-        out[0] = q[0] + (v[1] + v[1]) - d1 * from_earth - d2 * from_moon;
-        out[1] = q[1] - (v[0] + v[0]) - (d1 + d2) * q[1];
+        out[0] = -(d1 * from_earth + d2 * from_moon);
+        out[1] = -(d1 + d2) * q[1];
+    }
+}
+
+impl Accelerations for Arenstorf {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn accelerations<T: Real>(&self, q: &[T], v: &[T], out: &mut [T]) {
+        self.attraction(q, out);
+        out[0] = out[0] + (q[0] + (v[1] + v[1]));
+        out[1] = out[1] + (q[1] - (v[0] + v[0]));
     }
 }
 

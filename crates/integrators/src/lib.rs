@@ -25,6 +25,7 @@ mod sensitivity;
 mod splitting;
 mod state;
 mod tolerance;
+mod turning_frame;
 mod verner;
 
 pub use advice::{Advice, AdvisedMethod, Character, advise};
@@ -49,6 +50,7 @@ pub use sensitivity::{
 pub use splitting::{SplittingScheme, SplittingStage};
 pub use state::{Ending, Report, State, Step, unobserved};
 pub use tolerance::Tolerance;
+pub use turning_frame::TurningFrame;
 pub use verner::{Verner98, VernerPair};
 
 /// For tests, and for the methods of other crates of Piola: no part of the interface.

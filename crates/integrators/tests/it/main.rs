@@ -21,6 +21,7 @@ mod sensitivity;
 mod serialised;
 mod splittings;
 mod traps;
+mod turning_frame;
 
 use piola_testkit::CountingAllocator;
 
