@@ -14,6 +14,7 @@ mod orders;
 #[cfg(feature = "glam")]
 mod poses;
 mod rounding;
+mod singular_positions;
 mod solids;
 mod systems;
 mod traps;
