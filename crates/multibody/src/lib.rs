@@ -50,6 +50,6 @@ pub use reactions::JointReaction;
 pub use regressor::INERTIAL_PARAMETERS;
 pub use tree::{BodyIndex, BodyInertia, FrameIndex, JointKind, JointPlace, RigidTree, RigidTreeBuilder, TreeJoint};
 #[cfg(feature = "urdf")]
-pub use urdf::{Mimic, Urdf, UrdfBase, UrdfInertias, UrdfOptions};
+pub use urdf::{Mimic, Urdf, UrdfBase, UrdfInertias, UrdfOptions, Visual, VisualShape};
 pub use variational::VariationalTree;
 pub use workspace::TreeWorkspace;
