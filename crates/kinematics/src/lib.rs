@@ -19,6 +19,7 @@ pub mod placement;
 pub mod pose;
 pub mod rigid_body;
 pub mod rotation_vector;
+mod singular_positions;
 pub mod solids;
 pub mod system;
 pub mod twist;
@@ -35,6 +36,13 @@ pub use placement::{Holonomic, Placement};
 pub use pose::Pose;
 pub use rigid_body::{BodyMotion, BodyPose, BodyVelocity, RigidBody};
 pub use rotation_vector::RotationVector;
+pub use singular_positions::SingularPosition;
 pub use solids::Solid;
 pub use system::ParticleSystem;
 pub use twist::{BodyTwist, SpaceTwist};
+
+/// For the other crates of Piola alone: no part of the interface.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::singular_positions::Passages;
+}

@@ -44,6 +44,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
                 let h = momenta.iter().zip(v).map(|(p, v)| p * v).sum::<f64>() - energies.lagrangian();
                 Ok(Certificate { integral: h, kinetic: energies.kinetic, ..Certificate::default() })
             },
+            |_| Vec::new(),
         )
     }
 }

@@ -84,7 +84,7 @@ pub use hamilton_principle::{SampledMotion, StationarityResidual};
 pub use legendre_certificate::LegendreCertificate;
 pub use momentum::SystemMomentum;
 pub use motion::{CanonicalMotion, Motion};
-pub use piola_kinematics::{Holonomic, Placement};
+pub use piola_kinematics::{Holonomic, Placement, SingularPosition};
 pub use potential::{NoPotential, Potential};
 pub use power::{ForceAlongTime, PartPower, PowerBalance};
 pub use reactions::{PartForce, Reaction};

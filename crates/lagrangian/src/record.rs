@@ -3,6 +3,7 @@
 use core::ops::{ControlFlow, Range};
 
 use piola_integrators::{DormandPrince853, Field, IntegratorsError, Report, State, Tolerance};
+use piola_kinematics::SingularPosition;
 
 use super::run::Run;
 use crate::LagrangianError;
@@ -27,6 +28,7 @@ pub(crate) fn record<F: Field<Error = LagrangianError>>(
     times: Range<f64>,
     tolerance: Tolerance,
     mut certify: impl FnMut(f64, &[f64]) -> Result<Certificate, LagrangianError>,
+    singular_positions: impl Fn(&F) -> Vec<SingularPosition>,
 ) -> Result<Run, LagrangianError> {
     let mut run = Run {
         coordinates,
@@ -38,18 +40,21 @@ pub(crate) fn record<F: Field<Error = LagrangianError>>(
         error_estimate: f64::INFINITY,
         residual: 0.0,
         rate_residual: 0.0,
+        singular_positions: Vec::new(),
     };
     let stopped = |error: IntegratorsError| LagrangianError::Run {
         time: times.start,
         source: Box::new(error.with_field_error()),
     };
     let mut state = State::new(times.start, start.to_vec()).map_err(stopped)?;
-    let followed = DormandPrince853::new(tolerance).integrate(&mut field(), &mut state, times.end, |step| {
+    let mut motion = field();
+    let followed = DormandPrince853::new(tolerance).integrate(&mut motion, &mut state, times.end, |step| {
         run.times.push(step.time());
         run.states.extend_from_slice(step.values());
         run.report.steps += 1;
         ControlFlow::Continue(())
     });
+    run.singular_positions = singular_positions(&motion);
     let (mut first, mut change, mut scale) = (None, 0.0_f64, 0.0_f64);
     for (state, &time) in run.states.chunks_exact(run.dimension.max(1)).zip(&run.times) {
         let certificate = certify(time, state)?;

@@ -1,6 +1,7 @@
 //! A motion that has been computed, with a method chosen for it.
 
 use piola_integrators::Report;
+use piola_kinematics::SingularPosition;
 
 /// A motion that has been computed: every accepted step, and how good it is.
 ///
@@ -19,6 +20,7 @@ pub struct Run {
     pub(super) error_estimate: f64,
     pub(super) residual: f64,
     pub(super) rate_residual: f64,
+    pub(super) singular_positions: Vec<SingularPosition>,
 }
 
 impl Run {
@@ -60,6 +62,11 @@ impl Run {
     #[must_use]
     pub const fn rate_residual(&self) -> f64 {
         self.rate_residual
+    }
+    /// The singular positions of constraints that the run went through: the first 64.
+    #[must_use]
+    pub fn singular_positions(&self) -> &[SingularPosition] {
+        &self.singular_positions
     }
     /// The times of the steps, the first being the start, s.
     #[must_use]

@@ -42,13 +42,14 @@ pub use factorisation::TreeFactors;
 pub use group::TreeGroup;
 pub use inverse_dynamics::AppliedWrench;
 pub use kinematics::{FrameAcceleration, FramePlace, FrameVelocity};
-pub use loops::{BodyPoint, ClosedMotion, ClosedTree, LoopClosure, LoopWorkspace, SingularPosition};
+pub use loops::{BodyPoint, ClosedMotion, ClosedTree, LoopClosure, LoopWorkspace};
 pub use momentum::{CentroidalMomentum, MassCentre, TreeEnergies};
 pub use motion::TreeMotion;
+pub use piola_kinematics::SingularPosition;
 pub use reactions::JointReaction;
 pub use regressor::INERTIAL_PARAMETERS;
 pub use tree::{BodyIndex, BodyInertia, FrameIndex, JointKind, JointPlace, RigidTree, RigidTreeBuilder, TreeJoint};
 #[cfg(feature = "urdf")]
-pub use urdf::{Mimic, Urdf, UrdfBase, UrdfInertias, UrdfOptions};
+pub use urdf::{Mimic, Urdf, UrdfBase, UrdfInertias, UrdfOptions, Visual, VisualShape};
 pub use variational::VariationalTree;
 pub use workspace::TreeWorkspace;

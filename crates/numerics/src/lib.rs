@@ -49,6 +49,8 @@ pub use second_derivatives::Hessian;
 pub mod internal {
     pub use crate::excess::{excess_of_exponential, excess_over_given, excess_over_logarithm, volume_excess};
     pub use crate::lanewise::Lanewise;
+    pub use crate::linear::independent_rows::IndependentRows;
+    pub use crate::linear::vectors::{dot, size, zeros};
     pub use crate::prefetch::{prefetch, prefetch_for_writing};
 }
 

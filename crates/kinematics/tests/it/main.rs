@@ -15,6 +15,7 @@ mod orders;
 #[cfg(feature = "glam")]
 mod poses;
 mod rounding;
+mod singular_positions;
 mod solids;
 mod systems;
 mod traps;

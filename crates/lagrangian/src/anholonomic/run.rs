@@ -61,6 +61,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
                 let energies = self.unconstrained().lagrangian().energies_with(&mut work.lagrangian, q, &v, time)?;
                 Ok(Certificate { integral: energies.total(), kinetic: energies.kinetic, ..Certificate::default() })
             },
+            |_| Vec::new(),
         )
     }
 }

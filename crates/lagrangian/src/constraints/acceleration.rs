@@ -2,10 +2,10 @@
 
 use nalgebra::DVector;
 use piola_kinematics::Holonomic;
+use piola_numerics::internal::{size, zeros};
 use piola_numerics::linear::ldlt;
 use piola_numerics::{Mask, NumericsError, Real};
 
-use super::vectors::{size, zeros};
 use super::workspace::Workspace;
 use super::{Constrained, Constraints, Redundancy};
 use crate::check::{check_finite, check_length};
@@ -73,10 +73,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     ) -> Result<(), LagrangianError> {
         self.form(work, q, v, t)?;
         self.factor(work, true)?;
-        if let Err(constraint) = work.independence.follow() {
-            let name = self.name_of(constraint);
-            return Err(LagrangianError::Constraint(ConstraintError::Singular { constraint, name, time: t.primal(0) }));
-        }
+        work.independence.follow().map_err(|constraint| self.singular(constraint, t.primal(0)))?;
         work.independence.accelerate(&work.forcing, &work.gradients.second_rates, out);
         Ok(())
     }

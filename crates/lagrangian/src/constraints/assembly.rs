@@ -80,7 +80,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     }
 
     /// The largest residual of a position, relative, and which it is.
-    fn violation(work: &Workspace, q: &[f64]) -> (usize, f64) {
+    pub(super) fn violation(work: &Workspace, q: &[f64]) -> (usize, f64) {
         let unit = q.iter().fold(1.0, |m: f64, q| m.max(q.abs()));
         worst(&work.gradients.residuals, &work.gradients.rows, unit, q.len())
     }

@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 use piola_kinematics::Holonomic;
+use piola_numerics::internal::zeros;
 use piola_numerics::{Jet, Real};
 
-use super::vectors::zeros;
 use super::workspace::{Gradients, Pass, Workspace};
 use super::{Constrained, Constraints};
 use crate::check::{check_finite, check_length};

@@ -23,12 +23,11 @@
 
 mod acceleration;
 mod assembly;
+mod branch;
 mod evaluation;
-mod independence;
 mod motion;
 mod rattle;
 mod redundancy;
-mod vectors;
 mod workspace;
 
 pub use assembly::Assembly;

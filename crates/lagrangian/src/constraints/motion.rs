@@ -3,21 +3,38 @@
 use core::ops::Range;
 
 use piola_integrators::{Field, Tolerance};
-use piola_kinematics::Holonomic;
+use piola_kinematics::internal::Passages;
+use piola_kinematics::{Holonomic, SingularPosition};
 
 use super::workspace::Workspace;
 use super::{Constrained, Constraints};
+use crate::LagrangianError;
 use crate::Run;
 use crate::record::{Certificate, record};
-use crate::{ConstraintError, LagrangianError};
 use crate::{Forces, Potential};
+
+/// The least share of its own of a constraint, of the largest so far, below which a state lies beside a singular position.
+const BESIDE: f64 = 0.2;
+
+/// The least share below which a step must not end: there rounding, ε/x² at the distance x, exceeds the error of the method.
+const CLOSE_BY: f64 = 1e-3;
 
 /// The motion in positions and velocities, y = (q, q̇), brought back to φ = 0 and φ̇ = 0 after every accepted step.
 ///
 /// The independent constraints are chosen where the constraints are satisfied, at the start and after every
 /// projection, and kept in between: a loop that is not quite closed at a stage of a step may seem to have one
-/// condition more. A position where their number changes is singular: the motion may branch there, and the run
-/// ends with [`ConstraintError::Singular`].
+/// condition more.
+///
+/// At a singular position constraints that are independent elsewhere depend on each other, and motions of several kinds meet.
+/// The motion goes on along the smooth branch, the one of its velocity, and lists the position. With
+/// [`stopping_at_singular_positions`](Self::stopping_at_singular_positions) it ends before the position with
+/// [`ConstraintError::Singular`](crate::ConstraintError::Singular). So it always does where the run starts in a singular
+/// position. Between two runs of one motion stands [`restart`](Self::restart).
+///
+/// # Accuracy
+/// At the distance x from a singular position rounding moves a state that is brought onto the branch by ε/x². Runs through
+/// such positions take tolerances down to about 1e-11. A run with a tighter one may end at such a position with
+/// [`ConstraintError::Singular`](crate::ConstraintError::Singular).
 ///
 /// # Example
 /// See [`Constrained::integrate`].
@@ -29,6 +46,61 @@ pub struct ConstrainedMotion<'a, S, P, F, C> {
     /// The number of independent constraints, once they have been chosen, and the order in which they were.
     rank: Option<usize>,
     order: Vec<usize>,
+    passages: Passages,
+    /// The largest sᵢ, and the largest of the least shares, so far.
+    largest: Vec<f64>,
+    usual_share: f64,
+    /// A state before its projection, or brought onto the branch, and scratch of the same length.
+    stage: Vec<f64>,
+    scratch: Vec<f64>,
+    /// Whether the step begins, and the next one would begin, beside a singular position.
+    beside: [bool; 2],
+    stops: bool,
+    stopped: Option<SingularPosition>,
+    /// The time of the last accepted state, and of the farthest one that was too close to a singular position.
+    accepted: f64,
+    refused: Option<f64>,
+}
+
+impl<S, P, F, C> ConstrainedMotion<'_, S, P, F, C> {
+    /// Ends a run before a singular position with [`ConstraintError::Singular`](crate::ConstraintError::Singular).
+    #[must_use]
+    pub const fn stopping_at_singular_positions(mut self) -> Self {
+        self.stops = true;
+        self
+    }
+    /// The singular positions that accepted steps of the method went through: the first 64.
+    ///
+    /// They are recognised where the method projects its steps. [`Constraints::name`] names a condition.
+    pub fn singular_positions(&self) -> &[SingularPosition] {
+        self.passages.listed()
+    }
+    /// How many singular positions accepted steps went through.
+    pub const fn singular_count(&self) -> usize {
+        self.passages.count()
+    }
+    /// Forgets the run before: the next evaluation is the start of another one.
+    pub fn restart(&mut self) {
+        (self.rank, self.stopped, self.refused) = (None, None, None);
+        (self.beside, self.usual_share) = ([false; 2], 0.0);
+        self.largest.fill(0.0);
+        self.passages.clear();
+    }
+
+    /// The least part of an independent constraint's gradient that is its own, of the largest so far: zero at a singular
+    /// position.
+    fn share(&mut self) -> f64 {
+        let independence = &self.work.independence;
+        for (largest, &size) in self.largest.iter_mut().zip(&independence.sizes) {
+            *largest = largest.max(size);
+        }
+        let share = (0..independence.rank).fold(1.0, |least: f64, place| {
+            let constraint = independence.order[place];
+            least.min(independence.share(place) * independence.sizes[constraint] / self.largest[constraint])
+        });
+        self.usual_share = self.usual_share.max(share);
+        share / self.usual_share
+    }
 }
 
 impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F, C> {
@@ -38,10 +110,29 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     /// [`DormandPrince853`](piola_integrators::DormandPrince853) projects every accepted step ([`Field::project`]); with other methods the residuals
     /// grow slowly, by the error of each step.
     pub fn motion(&self, coordinates: usize) -> ConstrainedMotion<'_, S, P, F, C> {
-        ConstrainedMotion { system: self, coordinates, work: Workspace::default(), rank: None, order: Vec::new() }
+        let count = self.constraints.count();
+        ConstrainedMotion {
+            system: self,
+            coordinates,
+            work: Workspace::default(),
+            rank: None,
+            order: Vec::new(),
+            passages: Passages::of(count, coordinates),
+            largest: vec![0.0; count],
+            usual_share: 0.0,
+            stage: vec![0.0; 2 * coordinates],
+            scratch: vec![0.0; 2 * coordinates],
+            beside: [false; 2],
+            stops: false,
+            stopped: None,
+            accepted: 0.0,
+            refused: None,
+        }
     }
 
     /// Integrates the motion from the nearest consistent state over a span of time and keeps every step.
+    ///
+    /// The run goes through singular positions on the branch of its velocity and [lists](Run::singular_positions) them.
     ///
     /// The method is the adaptive one of order eight, every accepted step being projected; its global error is
     /// estimated by a second run with a hundredth of the tolerance. For an observer, dense output or events give
@@ -106,7 +197,37 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
                 let energies = self.lagrangian.energies_with(&mut unconstrained, q, v, time)?;
                 Ok(Certificate { integral: energies.total(), kinetic: energies.kinetic, residual, rate_residual })
             },
+            |motion| motion.singular_positions().to_vec(),
         )
+    }
+}
+
+impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> ConstrainedMotion<'_, S, P, F, C> {
+    fn go_on(&self) -> Result<(), LagrangianError> {
+        self.stopped.map_or(Ok(()), |position| Err(self.system.singular(position.condition, position.t)))
+    }
+
+    /// Projects a state and chooses its constraints; the share is zero where fewer are independent than before.
+    fn project_and_choose(&mut self, t: f64, y: &mut [f64], before: usize) -> Result<f64, LagrangianError> {
+        let (system, work) = (self.system, &mut self.work);
+        let (q, v) = y.split_at_mut(self.coordinates);
+        let projected = system.project_into(work, q, v, t);
+        if projected.is_err() {
+            // At a singular position Newton's method may fail.
+            y.copy_from_slice(&self.stage);
+            let (q, v) = y.split_at(self.coordinates);
+            system.form(work, q, v, t)?;
+            system.factor(work, false)?;
+        }
+        work.independence.choose(system.least_share);
+        if work.independence.rank < before {
+            return Ok(0.0);
+        }
+        if projected.is_ok() && before < work.independence.rank {
+            return Err(system.singular(work.independence.order[before], t));
+        }
+        let share = self.share();
+        projected.map(|_| share).or_else(|error| if share < CLOSE_BY { Ok(share) } else { Err(error) })
     }
 }
 
@@ -119,42 +240,66 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Field for Constraine
         true
     }
     fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), LagrangianError> {
-        let (q, v) = y.split_at(self.coordinates);
-        let (velocity, acceleration) = rate.split_at_mut(self.coordinates);
+        self.go_on()?;
+        let n = self.coordinates;
+        let (q, v) = y.split_at(n);
+        let (velocity, acceleration) = rate.split_at_mut(n);
         velocity.copy_from_slice(v);
-        if self.rank.is_some() {
-            return self.system.follow_into(&mut self.work, (q, v), t, acceleration);
+        if self.rank.is_none() {
+            self.system.acceleration_into(&mut self.work, q, v, t, acceleration)?;
+            self.rank = Some(self.work.independence.rank);
+            self.share();
+            self.passages.look(&self.work.gradients.rows, n, self.work.independence.taken(), t);
+        } else if self.beside[0] {
+            self.stage.copy_from_slice(y);
+            let (q, v) = self.stage.split_at_mut(n);
+            self.system.follow_branch(&mut self.work, (q, v), t, self.scratch.split_at_mut(n).into())?;
+            self.system.follow_into(&mut self.work, (q, v), t, acceleration)?;
+        } else {
+            self.system.follow_into(&mut self.work, (q, v), t, acceleration)?;
         }
-        self.system.acceleration_into(&mut self.work, q, v, t, acceleration)?;
-        self.rank = Some(self.work.independence.rank);
+        if self.passages.accept(t) {
+            self.accepted = t;
+            self.beside[0] = self.beside[1];
+        }
         Ok(())
     }
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), LagrangianError> {
-        let (q, v) = y.split_at_mut(self.coordinates);
+        self.go_on()?;
+        self.stage.copy_from_slice(y);
         self.order.clear();
         self.order.extend_from_slice(&self.work.independence.order);
-        let projected = self.system.project_into(&mut self.work, q, v, t);
-        let independence = &mut self.work.independence;
-        let before = self.rank.unwrap_or(independence.rank);
-        let changed = projected.and_then(|_| {
-            independence.choose(self.system.least_share);
-            if independence.rank == before {
-                return Ok(());
+        let before = self.rank.unwrap_or(self.work.independence.rank);
+        let share = self.project_and_choose(t, y, before);
+        if share.as_ref().is_ok_and(|&share| CLOSE_BY <= share) {
+            let taken = self.work.independence.taken();
+            let found = self.passages.look(&self.work.gradients.rows, self.coordinates, taken, t);
+            if self.stops && found.is_some() {
+                self.stopped = found;
             }
-            // The constraint that is lost, or the one that is new.
-            let place = independence.rank.min(before);
-            let constraint = independence.order.get(place).copied().unwrap_or_default();
-            Err(LagrangianError::Constraint(ConstraintError::Singular {
-                constraint,
-                name: self.system.name_of(constraint),
-                time: t,
-            }))
-        });
-        if changed.is_err() {
-            // A shorter step is tried with what was chosen for this one.
-            independence.order.clone_from(&self.order);
-            independence.rank = before;
+            self.beside[1] = share.is_ok_and(|share| share < BESIDE);
+            if found.is_some() || !self.beside[1] {
+                self.refused = None;
+            }
+            return self.go_on();
         }
-        changed
+        // Too close by, or a shorter step is tried: with what was chosen for this one.
+        let lost = self.work.independence.order.get(self.work.independence.rank.min(before)).copied();
+        self.work.independence.order.clone_from(&self.order);
+        self.work.independence.rank = before;
+        y.copy_from_slice(&self.stage);
+        share?;
+        // After a shorter step another one goes over the position, unless the run is to end here.
+        let again = |refused: f64| (refused - t).abs() <= 8.0 * f64::EPSILON * t.abs();
+        if !self.refused.is_some_and(again) {
+            // The farthest of those that were refused.
+            if self.refused.is_none_or(|refused| (refused - t) * (t - self.accepted) <= 0.0) {
+                self.refused = Some(t);
+            }
+            return Err(self.system.singular(lost.unwrap_or_default(), t));
+        }
+        self.passages.pass_by(t);
+        self.beside[1] = false;
+        Ok(())
     }
 }

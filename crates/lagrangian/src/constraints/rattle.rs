@@ -14,8 +14,8 @@ use core::ops::ControlFlow;
 
 use piola_integrators::{Ending, Field, IntegratorsError, Report, State, Step};
 use piola_kinematics::Holonomic;
+use piola_numerics::internal::{dot, zeros};
 
-use super::vectors::{dot, zeros};
 use super::workspace::Workspace;
 use super::{Constrained, Constraints};
 use crate::LagrangianError;

@@ -1,8 +1,7 @@
 //! The buffers of constrained evaluations.
 
 use piola_numerics::Jet;
-
-use super::independence::Independence;
+use piola_numerics::internal::IndependentRows;
 
 /// The buffers of one thread: grown at the first evaluation, then never again.
 #[derive(Clone, Debug)]
@@ -13,7 +12,7 @@ pub struct Workspace<T = f64> {
     pub(super) gradients: Gradients<T>,
     pub(super) mass_matrix: Vec<T>,
     pub(super) forcing: Vec<T>,
-    pub(super) independence: Independence<T>,
+    pub(super) independence: IndependentRows<T>,
     pub(super) acceleration: Vec<T>,
     pub(super) multipliers: Vec<T>,
     /// What the constraints do to the coordinates, or an increment of these.
@@ -57,7 +56,7 @@ impl<T> Default for Workspace<T> {
             gradients: Gradients::default(),
             mass_matrix: Vec::new(),
             forcing: Vec::new(),
-            independence: Independence::default(),
+            independence: IndependentRows::default(),
             acceleration: Vec::new(),
             multipliers: Vec::new(),
             along: Vec::new(),

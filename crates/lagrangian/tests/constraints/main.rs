@@ -6,6 +6,7 @@ mod bricard;
 mod four_bar;
 mod laws;
 mod orders;
+mod singular;
 mod systems;
 mod traps;
 

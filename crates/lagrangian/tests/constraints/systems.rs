@@ -28,6 +28,9 @@ pub(crate) enum System {
     BricardSymmetric,
     /// Andrews' squeezing mechanism.
     Squeezer(&'static Squeezer),
+    /// N parallelograms side by side: N + 1 posts that stand on the ground, and N rungs that join their tips; all rods of 1 kg
+    /// and 1 m. Posts and rungs have their angles in turn; the ground is turned by an angle.
+    Ladder { turn: f64 },
     /// Particles of 1 kg, 2 kg, … at (q₀, q₁, q₂), …; without the last coordinate's inertia.
     Particles { last_has_mass: bool },
     /// A bead of 2 kg in polar coordinates (r, φ).
@@ -47,6 +50,17 @@ impl Holonomic for System {
             Self::Bricard { sixth } => place_loop(q, if *sixth { 6 } else { 5 }, bodies),
             Self::BricardSymmetric => place_loop(&loop_angles(q[0]), 5, bodies),
             Self::Squeezer(squeezer) => squeezer.place(q, bodies),
+            Self::Ladder { turn } => {
+                let half = T::lit(0.5);
+                let mut post = unit(q[0]);
+                for (k, &angle) in q.iter().enumerate() {
+                    let foot = unit(T::lit(*turn)) * T::lit((k / 2) as f64);
+                    let along = unit(angle);
+                    let start = if k % 2 == 0 { foot } else { foot + post };
+                    bodies.body(&body(1.0, 1.0 / 12.0), start + along * half, Attitude::about_z(angle));
+                    post = along;
+                }
+            }
             Self::Particles { last_has_mass } => {
                 let count = q.len().div_ceil(3);
                 for (k, x) in q.chunks(3).enumerate() {
@@ -64,6 +78,11 @@ impl Holonomic for System {
             }
         }
     }
+}
+
+fn unit<T: Real>(angle: T) -> Vector3<T> {
+    let (s, c) = angle.sin_cos();
+    Vector3::new(c, s, T::zero())
 }
 
 /// Bars of 1, 3 and 2 kg, their centres of mass half way; the crank carries a flywheel.
@@ -175,6 +194,11 @@ pub(crate) enum Ties {
     Distances(Vec<(usize, usize, f64)>),
     /// r = l.
     Radius(f64),
+    /// The loops of a ladder of N, its ground turned by an angle.
+    Ladder {
+        n: usize,
+        turn: f64,
+    },
 }
 
 impl Constraints for Ties {
@@ -187,6 +211,7 @@ impl Constraints for Ties {
             Self::Linear(rows) => rows.len(),
             Self::Distances(pairs) => pairs.len(),
             Self::Radius(_) => 1,
+            Self::Ladder { n, .. } => 2 * n,
         }
     }
     fn residuals<T: Real>(&self, q: &[T], t: T, out: &mut [T]) {
@@ -220,12 +245,20 @@ impl Constraints for Ties {
                     }
                 }
             }
+            Self::Ladder { turn, .. } => {
+                let ground = unit(T::lit(*turn));
+                for (angles, out) in q.windows(3).step_by(2).zip(out.chunks_exact_mut(2)) {
+                    let gap = unit(angles[0]) + unit(angles[1]) - unit(angles[2]) - ground;
+                    out.copy_from_slice(&[gap.x, gap.y]);
+                }
+            }
             Self::Radius(length) => out[0] = q[0] - T::lit(*length),
         }
     }
     fn name(&self, constraint: usize) -> Option<&str> {
         match self {
             Self::FourBarThrice => Some(["closure along x", "closure along y", "closure again", "sum"][constraint]),
+            Self::Ladder { .. } => Some(["loop along x", "loop along y"][constraint % 2]),
             _ => None,
         }
     }

@@ -14,12 +14,10 @@ mod closure;
 mod evaluation;
 mod motion;
 mod projection;
-mod singular;
 mod solve;
 
 pub use closure::{BodyPoint, LoopClosure};
 pub use motion::ClosedMotion;
-pub use singular::SingularPosition;
 pub use solve::LoopWorkspace;
 
 use crate::error::MultibodyError;

@@ -1,8 +1,9 @@
 //! The motion of a tree with closures, for explicit methods that project.
 
 use piola_integrators::Field;
+use piola_kinematics::SingularPosition;
+use piola_kinematics::internal::Passages;
 
-use super::singular::{Passages, SingularPosition};
 use super::{ClosedTree, LoopWorkspace};
 use crate::error::MultibodyError;
 
@@ -77,7 +78,7 @@ impl ClosedTree {
             work: self.workspace(),
             tau: vec![0.0; self.tree.freedoms],
             forces,
-            passages: Passages::of(self.tree.freedoms * self.conditions),
+            passages: Passages::of(self.conditions, self.tree.freedoms),
             stage: (vec![0.0; self.tree.coordinates], vec![0.0; self.tree.freedoms]),
             beside: [false; 2],
             stops: false,

@@ -6,11 +6,15 @@
 //! | `joint` of type revolute, continuous, prismatic, fixed, floating | the joint; planar joints are refused |
 //! | `limit`, `dynamics` | data of the joint |
 //! | `mimic` | a [`Mimic`], for a constraint |
-//! | `visual`, `collision`, `material`, `transmission`, `gazebo`, `safety_controller`, `calibration` | nothing: they move nothing |
+//! | `visual` | a [`Visual`], for pictures |
+//! | `collision`, `material`, `transmission`, `gazebo`, `safety_controller`, `calibration` | nothing: they move nothing |
 //!
 //! Any other element is refused with its line.
 
 mod parse;
+mod visual;
+
+pub use visual::{Visual, VisualShape};
 
 use std::path::Path;
 
@@ -92,6 +96,8 @@ pub struct Urdf {
     pub tree: RigidTree,
     /// Joints that follow others: the tree leaves them free.
     pub mimics: Vec<Mimic>,
+    /// What the bodies look like.
+    pub visuals: Vec<Visual>,
 }
 
 impl Urdf {

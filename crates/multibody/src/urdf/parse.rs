@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use piola_kinematics::Attitude;
 use roxmltree::{Document, Node};
 
-use super::{Mimic, Urdf, UrdfBase, UrdfInertias, UrdfOptions};
+use super::{Mimic, Urdf, UrdfBase, UrdfInertias, UrdfOptions, Visual, VisualShape};
 use crate::error::{MultibodyError, UrdfFault};
 use crate::tree::{BodyIndex, BodyInertia, JointKind, RigidTree, RigidTreeBuilder, TreeJoint};
 
@@ -91,7 +91,13 @@ impl<'a> Reader<'a> {
             return Err(self.fault(robot, UrdfFault::Cycle { links: links.len() - attached }));
         }
         let name = robot.attribute("name").unwrap_or_default().to_owned();
-        Ok(Urdf { name, tree: builder.build()?, mimics })
+        let mut visuals = Vec::new();
+        for &(link, element) in &links {
+            for visual in elements(element).filter(|element| element.tag_name().name() == "visual") {
+                visuals.push(self.visual(link, visual)?);
+            }
+        }
+        Ok(Urdf { name, tree: builder.build()?, mimics, visuals })
     }
 
     fn tie(&self, element: Element<'a>) -> Result<Tie<'a>, MultibodyError> {
@@ -184,6 +190,27 @@ impl<'a> Reader<'a> {
             let wrong = MultibodyError::InvalidInertia { body: name.to_owned(), source };
             self.fault(inertial, UrdfFault::Invalid { source: Box::new(wrong) })
         })
+    }
+
+    fn visual(&self, link: &str, visual: Element<'a>) -> Result<Visual, MultibodyError> {
+        let (origin, attitude) = self.origin(visual)?;
+        let geometry = self.element(visual, "geometry")?;
+        let Some(shape) = elements(geometry).next() else {
+            let (what, element) = ("shape", "geometry".to_owned());
+            return Err(self.fault(geometry, UrdfFault::Missing { what, element }));
+        };
+        let number = |name| self.number(shape, name, None);
+        let shape = match shape.tag_name().name() {
+            "box" => {
+                self.attribute(shape, "size")?;
+                VisualShape::Box { sides: self.vector(shape, "size", [0.0; 3])? }
+            }
+            "cylinder" => VisualShape::Cylinder { radius: number("radius")?, length: number("length")? },
+            "sphere" => VisualShape::Sphere { radius: number("radius")? },
+            "mesh" => VisualShape::Mesh { file: self.attribute(shape, "filename")?.to_owned() },
+            other => return Err(self.fault(shape, UrdfFault::Unsupported { element: other.to_owned() })),
+        };
+        Ok(Visual { body: link.to_owned(), origin, attitude, shape })
     }
 
     /// The element `origin` of an element: its place and attitude.

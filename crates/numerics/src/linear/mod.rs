@@ -18,10 +18,12 @@
 //! of digits, [`refine`](ldlt::Ldlt::refine) wins back those lost in the factorisation.
 
 mod condition;
+pub(crate) mod independent_rows;
 pub mod ldlt;
 pub mod least_squares;
 pub mod lu;
 pub mod matrix3;
+pub(crate) mod vectors;
 
 /// Largest column sum of |a|: the 1-norm of an n×n matrix stored down the columns.
 fn one_norm(matrix: &[f64], n: usize) -> f64 {

@@ -303,3 +303,21 @@ fn empty_systems_have_empty_solutions() {
     assert_close("condition", &conditions, &[0.0, 0.0], Tol::ulps(0.0));
     assert_close("refined", &[ldlt.refine(&[], &[], &mut [], &mut []).unwrap()], &[0.0], Tol::ulps(0.0));
 }
+
+/// Rows x, 2y and x + 2y in the metric diag(1, 4).
+#[test]
+fn independent_rows_of_a_metric_are_chosen_and_met_with_the_least_change() {
+    let mut rows = piola_numerics::internal::IndependentRows::default();
+    rows.factor_metric(&[1.0, 0.0, 0.0, 4.0], 2).unwrap();
+    rows.scale(&[1.0, 0.0, 0.0, 2.0, 1.0, 2.0], 3);
+    assert_eq!(rows.sizes, [1.0, 1.0, 2.0_f64.sqrt()]);
+    rows.choose(1e-7);
+    assert_eq!((rows.rank, rows.taken()), (2, &[0, 1][..]));
+    assert_eq!([rows.share(0), rows.share(1)], [1.0, 1.0]);
+    let mut change = [0.0; 2];
+    rows.correct(&[3.0, -4.0, -1.0], &mut change);
+    assert_eq!(change, [-3.0, 2.0]);
+    rows.combine();
+    let expected = [1.0, 1.0, 0.0];
+    assert_close("x + 2y", &rows.combination(2), &expected, Tol::ulps(4.0));
+}

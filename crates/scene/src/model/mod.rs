@@ -110,7 +110,7 @@ impl Scene {
 
 /// Builds the model and collects mistakes.
 pub(crate) struct Builder<'d> {
-    document: &'d Document,
+    pub(crate) document: &'d Document,
     mistakes: Vec<Mistake>,
 }
 
@@ -213,7 +213,7 @@ impl<'d> Builder<'d> {
         }
     }
 
-    fn time(&mut self, record: &Record, period: Option<f64>) -> Option<TimeSpan> {
+    pub(crate) fn time(&mut self, record: &Record, period: Option<f64>) -> Option<TimeSpan> {
         let Some(table) = record.record("time") else {
             let syntax = self.mistakes.iter().any(|mistake| mistake.syntax);
             if !record.has("time") && !syntax {
@@ -251,7 +251,7 @@ impl<'d> Builder<'d> {
         None
     }
 
-    fn integrator(&mut self, record: &Record) -> IntegratorRequest {
+    pub(crate) fn integrator(&mut self, record: &Record) -> IntegratorRequest {
         /// Methods raise what is less: their steps would grow short, and nothing would be won.
         const LEAST_TOLERANCE: f64 = 2.0 * f64::EPSILON;
         let table = record.record("integrator");

@@ -4,6 +4,7 @@
 //! for editors ([`json_schema`]) and the tables of the scene reference ([`markdown`]) all read it.
 
 mod boxes;
+mod robot;
 mod solids;
 mod studies;
 mod tables;
@@ -48,7 +49,7 @@ pub fn json_schema() -> Value {
     let mut schema = schema::json_schema(&SCENE);
     schema.insert("title".into(), "Piola scene".into());
     let kinds = SCENE_KINDS.each_ref().map(|kind| {
-        let time: &[&str] = if kind.study { &[] } else { &["time"] };
+        let time: &[&str] = if kind.study && kind.name != "robot" { &[] } else { &["time"] };
         json!({ "required": ([&[kind.name], time].concat()) })
     });
     schema.insert("oneOf".into(), kinds.to_vec().into());

@@ -6,14 +6,14 @@ use piola_document::units::Dimension as D;
 use super::Absent::{Default, Optional, Required};
 use super::Kind::{Flag, Name, Path, Text};
 use super::Range::{Any, Fraction, NotNegative, Positive};
-use super::{Kind, SceneKind, Word, boxes, quantity, solids, studies, word};
+use super::{Kind, SceneKind, Word, boxes, quantity, robot, solids, studies, word};
 
 const fn vector(dimension: D) -> Kind {
     Kind::Numbers(dimension, &[3])
 }
 
 /// The kinds of scenes.
-pub static SCENE_KINDS: [SceneKind; 11] = [
+pub static SCENE_KINDS: [SceneKind; 12] = [
     motion("gravity", &["body"]),
     motion("mechanism", &["joint", "particle", "rigid_body"]),
     motion("central", &["body"]),
@@ -25,6 +25,7 @@ pub static SCENE_KINDS: [SceneKind; 11] = [
     study("dislocation", &[]),
     study("laminated_tube", &["law", "layer"]),
     study("box", &["load", "start", "probe"]),
+    study("robot", &["drive", "closure"]),
 ];
 
 const fn motion(name: &'static str, lists: &'static [&'static str]) -> SceneKind {
@@ -37,7 +38,8 @@ const fn study(name: &'static str, lists: &'static [&'static str]) -> SceneKind 
 
 table! {
     /// A scene has exactly one of the tables that say of what kind it is: `[gravity]`, `[mechanism]` and `[central]`
-    /// move in time and need `[time]`; all others are studies without it. A `[box]` has its times in its own table.
+    /// move in time and need `[time]`, and so does `[robot]`; all others are studies without it. A `[box]` has its times in
+    /// its own table.
     pub static SCENE = "scene" {
         /// Name of the scene, of its output folder and in its results. The file's name when absent.
         name: Name, Optional;
@@ -75,6 +77,12 @@ table! {
         start: Kind::Tables(&boxes::START), Optional;
         /// Places in a `[box]` at which the result is recorded.
         probe: Kind::Tables(&boxes::PROBE), Optional;
+        /// A tree of rigid bodies from a URDF file.
+        robot: Kind::Table(&robot::ROBOT), Optional;
+        /// Joints of a `[robot]`: where they start and what drives them.
+        drive: Kind::Tables(&robot::DRIVE), Optional;
+        /// Closed loops of a `[robot]`.
+        closure: Kind::Tables(&robot::CLOSURE), Optional;
         /// The bodies of `[gravity]` or `[central]`.
         body: Kind::Tables(&BODY), Optional;
         /// The joints of a `[mechanism]`: a tree that grows from the ground.

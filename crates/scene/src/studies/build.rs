@@ -22,8 +22,8 @@ impl Builder<'_> {
     /// The study; parts that cannot be built have mistakes of their own.
     pub(crate) fn study(&mut self, record: &Record) -> Option<Study> {
         let kind = self.kind(record)?;
-        let is_box = kind.name == "box";
-        for key in OF_MOTIONS.into_iter().filter(|key| record.has(key)) {
+        let (is_box, is_robot) = (kind.name == "box", kind.name == "robot");
+        for key in OF_MOTIONS.into_iter().filter(|key| record.has(key) && !(is_robot && *key != "reference")) {
             let valid = if is_box && key == "time" {
                 "`duration` in a [box] of the type motion or flow"
             } else {
@@ -33,7 +33,7 @@ impl Builder<'_> {
                 Mistake::new(record.place_of(key), format!("[{key}] in a scene of [{}]", kind.name)).valid(valid),
             );
         }
-        if let Some(output) = record.record("output").filter(|output| output.has("samples")) {
+        if let Some(output) = record.record("output").filter(|output| output.has("samples") && !is_robot) {
             let valid = if is_box {
                 "`interval` in a [box] of the type motion"
             } else {
@@ -50,6 +50,7 @@ impl Builder<'_> {
         let subject = match kind.name {
             "room" => Subject::Room(self.room(table)?),
             "box" => self.fields_on_a_box(record, table)?,
+            "robot" => self.robot_study(record, table, output.samples)?,
             "wavefront" => Subject::Wavefront(self.wavefront(record, table)?),
             _ => self.solid(record, table, kind.name)?,
         };
@@ -66,13 +67,23 @@ impl Builder<'_> {
         self.lacks_feature(scene, "box", "spectral")
     }
 
+    #[cfg(feature = "robots")]
+    fn robot_study(&mut self, scene: &Record, table: &Record, samples: u32) -> Option<Subject> {
+        self.robot(scene, table, samples).map(|robot| Subject::Robot(Box::new(robot)))
+    }
+
+    #[cfg(not(feature = "robots"))]
+    fn robot_study(&mut self, scene: &Record, _table: &Record, _samples: u32) -> Option<Subject> {
+        self.lacks_feature(scene, "robot", "robots")
+    }
+
     #[cfg(not(feature = "solutions"))]
     fn solid(&mut self, scene: &Record, _table: &Record, name: &str) -> Option<Subject> {
         self.lacks_feature(scene, name, "solutions")
     }
 
     /// Says that this program has no studies of the kind `name`.
-    #[cfg(not(all(feature = "solutions", feature = "spectral")))]
+    #[cfg(not(all(feature = "solutions", feature = "spectral", feature = "robots")))]
     fn lacks_feature(&mut self, scene: &Record, name: &str, feature: &str) -> Option<Subject> {
         self.wrong(
             Mistake::new(

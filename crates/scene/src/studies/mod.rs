@@ -10,9 +10,10 @@
 //! | `[dislocation]` | `ScrewDislocations`: circuits in a crystal with screws | `piola_uniformity` |
 //! | `[laminated_tube]` | `LayeredTube`: a tube with residual stress | `piola_uniformity` |
 //! | `[box]` | `BoxStudy`: elastic and viscous fields on a rectangle or a box | `piola_spectral` |
+//! | `[robot]` | `RobotStudy`: the motion of a tree of bodies from a URDF file | `piola_multibody` |
 //!
 //! Those with `piola_solutions` and `piola_uniformity` need the feature `solutions`, those with `piola_spectral` the feature
-//! `spectral`.
+//! `spectral`, those with `piola_multibody` the feature `robots`.
 //!
 //! They go the way of all scenes: a checked [`Study`] has a [`StudyPlan`], [`run`] makes a [`StudyRun`] of what was found,
 //! and [`StudyRun::write`] leaves the summary, tables and figures. One that fails or is stopped keeps what it had found.
@@ -33,9 +34,12 @@ mod law;
 #[cfg(feature = "solutions")]
 mod limits;
 mod observer;
-#[cfg(any(feature = "solutions", feature = "spectral"))]
+#[cfg(any(feature = "solutions", feature = "spectral", feature = "robots"))]
+#[cfg_attr(not(any(feature = "solutions", feature = "spectral")), expect(dead_code, reason = "robots need less of it"))]
 mod panel;
 mod plan;
+#[cfg(feature = "robots")]
+pub mod robot;
 pub mod room;
 mod run;
 #[cfg(feature = "solutions")]
@@ -61,6 +65,8 @@ pub use self::{
 #[cfg(feature = "spectral")]
 pub use boxes::BoxStudy;
 pub use plan::StudyPlan;
+#[cfg(feature = "robots")]
+pub use robot::RobotStudy;
 pub use room::Room;
 pub use run::{Findings, StudyRun, run};
 pub use wavefront::Wavefront;
@@ -94,4 +100,7 @@ pub enum Subject {
     /// Elastic or viscous fields on a rectangle or a box.
     #[cfg(feature = "spectral")]
     Box(Box<BoxStudy>),
+    /// The motion of a tree of bodies.
+    #[cfg(feature = "robots")]
+    Robot(Box<RobotStudy>),
 }

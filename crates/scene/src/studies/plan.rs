@@ -66,6 +66,8 @@ impl StudyPlan {
             Subject::Solid(solid) => solid.plan(&mut plan),
             #[cfg(feature = "spectral")]
             Subject::Box(fields) => fields.plan(&mut plan),
+            #[cfg(feature = "robots")]
+            Subject::Robot(robot) => robot.plan(&mut plan),
         };
         for (wanted, files, what) in
             [(study.output.tables, tables, "tables"), (study.output.figures, figures, "figures")]

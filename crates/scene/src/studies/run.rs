@@ -24,6 +24,9 @@ pub enum Findings {
     /// Fields on a rectangle or a box.
     #[cfg(feature = "spectral")]
     Box(Box<super::boxes::BoxFindings>),
+    /// The motion of a tree of bodies.
+    #[cfg(feature = "robots")]
+    Robot(Box<super::robot::RobotMotion>),
 }
 
 /// A study that was run, however far it came.
@@ -83,6 +86,11 @@ pub fn run(study: &Study, mut observer: impl FnMut(f64) -> ControlFlow<()>) -> S
             let (found, outcome) = fields.run(&mut observer);
             (Findings::Box(Box::new(found)), outcome)
         }
+        #[cfg(feature = "robots")]
+        Subject::Robot(robot) => {
+            let (found, outcome) = robot.run(&mut observer);
+            (Findings::Robot(Box::new(found)), outcome)
+        }
     };
     StudyRun { outcome, wall_time: begun.elapsed().as_secs_f64(), findings }
 }
@@ -96,6 +104,8 @@ impl StudyRun {
             Findings::Solid(found) => found.results(),
             #[cfg(feature = "spectral")]
             Findings::Box(found) => found.results(),
+            #[cfg(feature = "robots")]
+            Findings::Robot(found) => found.results(),
         };
         if let Value::Object(map) = results { map } else { Map::new() }
     }
@@ -165,6 +175,8 @@ impl StudyRun {
             (Findings::Solid(found), Subject::Solid(asked)) => found.file(asked, title, name),
             #[cfg(feature = "spectral")]
             (Findings::Box(found), Subject::Box(_)) => found.file(title, name),
+            #[cfg(feature = "robots")]
+            (Findings::Robot(found), Subject::Robot(asked)) => found.file(asked, title, name),
             _ => None,
         };
         Written::of(folder, plan.files.iter().filter_map(|name| Some((name.as_str(), file(name)?))))

@@ -7,6 +7,8 @@ mod boxes;
 mod figures;
 mod plan;
 mod reference;
+#[cfg(feature = "robots")]
+mod robot;
 mod run;
 mod schema;
 mod settings;

@@ -1,36 +1,37 @@
-//! Which constraints are independent: a rank-revealing factorisation in the inertia metric.
+//! Which rows are independent: an orthogonalisation in the metric of a matrix that reveals the rank.
 //!
 //! ```text
 //! M = L D Lᵀ        bᵢ = D^{-1/2} L⁻¹ gᵢ / sᵢ,   sᵢ² = gᵢᵀ M⁻¹ gᵢ        b_{order(k)} = Σ_l r_{l,k} u_l
 //! ```
 //!
-//! gᵢ is the gradient of constraint i, u the orthonormal basis of their span. At each stage the constraint is
-//! taken of which most is left (the first of several equal ones); where less than a given share is left of all,
-//! the others depend on those taken.
+//! gᵢ is row i, as the gradient of a constraint, and u the orthonormal basis of their span. At each stage the row is
+//! taken of which most is left (the first of several equal ones). Where less than a given share is left of all, the
+//! others depend on those taken.
 
-use piola_numerics::linear::ldlt;
-use piola_numerics::{NumericsError, Real};
-
+use super::ldlt;
 use super::vectors::{dot, size, zeros};
+use crate::{NumericsError, Real};
 
-/// The factors of the metric and of the constraints' gradients.
+/// The factors of a metric and of rows, which are gradients of constraints where mechanics calls it.
 #[derive(Clone, Debug)]
-pub(super) struct Independence<T> {
+pub struct IndependentRows<T> {
     coordinates: usize,
-    /// L and D of the metric, and D^{-1/2}.
-    pub(super) factors: Vec<T>,
+    /// L and D of the metric.
+    pub factors: Vec<T>,
+    /// D^{-1/2}.
     roots: Vec<T>,
     /// bᵢ; while the basis is made, what is left of it.
     rows: Vec<T>,
     /// sᵢ, in units of the constraint by those of √(kg m²).
-    pub(super) sizes: Vec<T>,
+    pub sizes: Vec<T>,
     /// u_k, one after the other.
     basis: Vec<T>,
     /// r_{l,i} at `l count + i`.
     coefficients: Vec<T>,
     /// The constraints taken, in order, then the others.
-    pub(super) order: Vec<usize>,
-    pub(super) rank: usize,
+    pub order: Vec<usize>,
+    /// How many are taken.
+    pub rank: usize,
     /// D^{1/2} Lᵀ q̈, and its part along the basis that the constraints add.
     shifted: Vec<T>,
     along: Vec<T>,
@@ -41,7 +42,7 @@ pub(super) struct Independence<T> {
     scaled: Vec<T>,
 }
 
-impl<T> Default for Independence<T> {
+impl<T> Default for IndependentRows<T> {
     fn default() -> Self {
         Self {
             coordinates: 0,
@@ -63,14 +64,14 @@ impl<T> Default for Independence<T> {
     }
 }
 
-impl<T: Real> Independence<T> {
+impl<T: Real> IndependentRows<T> {
     /// The number of constraints.
     fn count(&self) -> usize {
         self.sizes.len()
     }
 
     /// Factors the metric of n coordinates.
-    pub(super) fn factor_metric(&mut self, metric: &[T], n: usize) -> Result<(), NumericsError> {
+    pub fn factor_metric(&mut self, metric: &[T], n: usize) -> Result<(), NumericsError> {
         self.coordinates = n;
         self.factors.clear();
         self.factors.extend_from_slice(metric);
@@ -110,7 +111,7 @@ impl<T: Real> Independence<T> {
     }
 
     /// bᵢ and sᵢ of the gradients gᵢ.
-    pub(super) fn scale(&mut self, gradients: &[T], count: usize) {
+    pub fn scale(&mut self, gradients: &[T], count: usize) {
         let n = self.coordinates;
         self.rows.clear();
         self.rows.extend_from_slice(gradients);
@@ -129,7 +130,7 @@ impl<T: Real> Independence<T> {
     }
 
     /// Takes independent constraints, as many as there are.
-    pub(super) fn choose(&mut self, least_share: f64) {
+    pub fn choose(&mut self, least_share: f64) {
         let (n, count) = (self.coordinates, self.count());
         self.begin();
         self.order.clear();
@@ -154,7 +155,7 @@ impl<T: Real> Independence<T> {
     }
 
     /// Takes the constraints that were chosen before, in the same order.
-    pub(super) fn follow(&mut self) -> Result<(), usize> {
+    pub fn follow(&mut self) -> Result<(), usize> {
         self.begin();
         for place in 0..self.rank {
             let constraint = self.order[place];
@@ -170,6 +171,17 @@ impl<T: Real> Independence<T> {
         let count = self.count();
         self.basis.clear();
         zeros(&mut self.coefficients, count * count.min(self.coordinates));
+    }
+
+    /// The rows taken, in order.
+    pub fn taken(&self) -> &[usize] {
+        &self.order[..self.rank]
+    }
+
+    /// The part of a taken row's length, by its place in the order, that those before it do not have: 1 where it is orthogonal
+    /// to them.
+    pub fn share(&self, place: usize) -> T {
+        self.coefficients[place * self.count() + self.order[place]]
     }
 
     fn row(&self, constraint: usize) -> &[T] {
@@ -214,7 +226,7 @@ impl<T: Real> Independence<T> {
     }
 
     /// q̈ from the forcing and γ: the nearest to M⁻¹f, in the metric, with G q̈ = −γ.
-    pub(super) fn accelerate(&mut self, forcing: &[T], second_rates: &[T], acceleration: &mut [T]) {
+    pub fn accelerate(&mut self, forcing: &[T], second_rates: &[T], acceleration: &mut [T]) {
         let (n, count) = (self.coordinates, self.count());
         self.shifted.clear();
         self.shifted.extend_from_slice(forcing);
@@ -242,7 +254,7 @@ impl<T: Real> Independence<T> {
 
     /// The least change, in the metric, that takes these residuals (or rates) away: −M⁻¹Gᵀ (G M⁻¹Gᵀ)⁻¹ φ, by the
     /// constraints taken.
-    pub(super) fn correct(&mut self, residuals: &[T], change: &mut [T]) {
+    pub fn correct(&mut self, residuals: &[T], change: &mut [T]) {
         let mut zero = core::mem::take(&mut self.scaled);
         zeros(&mut zero, change.len());
         self.accelerate(&zero, residuals, change);
@@ -252,7 +264,7 @@ impl<T: Real> Independence<T> {
     /// The multipliers of the last accelerations: Σ λᵢ gᵢ = f − M q̈, those of least Σ (λᵢ sᵢ)².
     ///
     /// To be called after [`choose`](Self::choose).
-    pub(super) fn multiply(&mut self, multipliers: &mut [T]) -> Result<(), NumericsError> {
+    pub fn multiply(&mut self, multipliers: &mut [T]) -> Result<(), NumericsError> {
         let (count, rank) = (self.count(), self.rank);
         let free = count - rank;
         // R λ₁ = −w.
@@ -297,7 +309,7 @@ impl<T: Real> Independence<T> {
     }
 
     /// What the constraints that depend are made of, by bᵢ.
-    pub(super) fn combine(&mut self) {
+    pub fn combine(&mut self) {
         let (count, rank) = (self.count(), self.rank);
         self.combinations.clear();
         for place in rank..count {
@@ -312,7 +324,7 @@ impl<T: Real> Independence<T> {
     /// The weights c with gᵢ = Σ c_k g_k for the constraint in a place of the order beyond the rank.
     ///
     /// To be called after [`combine`](Self::combine).
-    pub(super) fn combination(&self, place: usize) -> Vec<T> {
+    pub fn combination(&self, place: usize) -> Vec<T> {
         let mut weights = vec![T::zero(); self.count()];
         let length = self.sizes[self.order[place]];
         let column = &self.combinations[(place - self.rank) * self.rank..(place - self.rank + 1) * self.rank];
@@ -326,7 +338,7 @@ impl<T: Real> Independence<T> {
     ///
     /// μ is far above rounding, so that constraints that depend on others need no decision, and far below one,
     /// so that the corrections of a few iterations are those without it.
-    pub(super) fn factor_corrections(&mut self) -> Result<(), NumericsError> {
+    pub fn factor_corrections(&mut self) -> Result<(), NumericsError> {
         const MU: f64 = 1e-12;
         let count = self.count();
         zeros(&mut self.small, count * count);
@@ -341,7 +353,7 @@ impl<T: Real> Independence<T> {
     }
 
     /// x ← S⁻¹ (B Bᵀ + μ)⁻¹ S⁻¹ x: the weights of the gradients that correct residuals x.
-    pub(super) fn weigh(&self, x: &mut [T]) -> Result<(), NumericsError> {
+    pub fn weigh(&self, x: &mut [T]) -> Result<(), NumericsError> {
         let scale = |x: &mut [T]| {
             for (x, &length) in x.iter_mut().zip(&self.sizes) {
                 *x = if 0.0 < size(length) { *x / length } else { T::zero() };
@@ -354,7 +366,7 @@ impl<T: Real> Independence<T> {
     }
 
     /// x ← M⁻¹ x.
-    pub(super) fn solve_metric(&self, x: &mut [T]) -> Result<(), NumericsError> {
+    pub fn solve_metric(&self, x: &mut [T]) -> Result<(), NumericsError> {
         ldlt::solve_in_place(&self.factors, self.coordinates, x)
     }
 }

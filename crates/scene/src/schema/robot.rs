@@ -1,0 +1,111 @@
+//! The tables of robots.
+
+use piola_document::table;
+use piola_document::units::Dimension as D;
+
+use super::Absent::{Default, Optional, Required};
+use super::Kind::{Flag, Name, Path, Text};
+use super::Range::{Any, NotNegative};
+use super::{Kind, Word, quantity, word};
+
+const fn vector(dimension: D) -> Kind {
+    Kind::Numbers(dimension, &[3])
+}
+
+static BASES: [Word; 2] =
+    [word("fixed", "the root stands on the ground"), word("free", "the root moves: `position`, `attitude` and rates")];
+
+static INERTIAS: [Word; 2] = [
+    word("checked", "inertias that no body has are refused, with the line"),
+    word("as-given", "inertias are used as the file has them"),
+];
+
+static SINGULAR: [Word; 2] = [
+    word("pass", "the motion goes on along the branch of its velocity; the summary lists the positions"),
+    word("stop", "the run ends before the first of them, as failed"),
+];
+
+table! {
+    /// A tree of rigid bodies from a URDF file, with the span of time in `[time]`. `[integrator]` may have a
+    /// `tolerance`, 1e-9 when absent. Limits of joints are not enforced: the summary names the joints that leave them.
+    /// Coulomb friction of joints is not applied.
+    pub(super) static ROBOT = "robot" {
+        /// The URDF file, relative to the scene.
+        file: Path, Required;
+        /// How the root stands.
+        base: Kind::Choice(&BASES), Default("\"fixed\"");
+        /// The inertias of the file.
+        inertias: Kind::Choice(&INERTIAS), Default("\"checked\"");
+        /// Uniform acceleration of gravity.
+        gravity: vector(D::ACCELERATION), Default("[0.0, 0.0, -9.80665]");
+        /// Place of a free root at the start.
+        position: vector(D::LENGTH), Default("[0.0, 0.0, 0.0]");
+        /// Attitude of a free root at the start: roll, pitch and yaw as in the file.
+        attitude: vector(D::ANGLE), Default("[0.0, 0.0, 0.0]");
+        /// Velocity of the origin of a free root at the start, along its own axes.
+        velocity: vector(D::SPEED), Default("[0.0, 0.0, 0.0]");
+        /// Angular velocity of a free root at the start, about its own axes.
+        angular_velocity: vector(D::ANGULAR_RATE), Default("[0.0, 0.0, 0.0]");
+        /// Positions in which closures depend on each other.
+        singular_positions: Kind::Choice(&SINGULAR), Default("\"pass\"");
+        /// Whether the motion is written as `motion.gltf`, for viewers of glTF 2.0.
+        animation: Flag, Default("false");
+    }
+}
+
+table! {
+    /// A joint of the file: where it starts and what drives it. Joints without a table start at zero, at rest, with the
+    /// damping of the file. Numbers without a unit are in SI units.
+    pub(super) static DRIVE = "drive" {
+        /// The joint's name in the file.
+        name: Text, Required;
+        /// Angle of a rotating joint at the start.
+        angle: quantity(D::ANGLE, Any), Optional;
+        /// Its rate.
+        rate: quantity(D::ANGULAR_RATE, Any), Optional;
+        /// Displacement of a sliding joint at the start.
+        displacement: quantity(D::LENGTH, Any), Optional;
+        /// Its speed.
+        speed: quantity(D::SPEED, Any), Optional;
+        /// Constant torque of a rotating joint.
+        torque: quantity(D::MOMENT, Any), Optional;
+        /// Constant force of a sliding joint.
+        force: quantity(D::FORCE, Any), Optional;
+        /// Viscous damping, N m s or N s/m; that of the file when absent.
+        damping: quantity(D::NONE, NotNegative), Optional;
+        /// Stiffness of a spring, N m/rad or N/m.
+        stiffness: quantity(D::NONE, NotNegative), Default("0.0");
+        /// Coordinate, rad or m, at which the spring is at rest.
+        rest: quantity(D::NONE, Any), Default("0.0");
+        /// Whether the joint stays as it starts.
+        locked: Flag, Default("false");
+    }
+}
+
+static CLOSURES: [Word; 3] = [
+    word("point", "two points coincide: three conditions"),
+    word("hinge", "two points coincide and two axes are parallel: five conditions"),
+    word("frame", "the axes of both links coincide at two points: six conditions"),
+];
+
+table! {
+    /// A loop of links of a `[robot]`, closed where its tree is cut.
+    pub(super) static CLOSURE = "closure" {
+        /// Name, unlike any other.
+        name: Name, Required;
+        /// What coincides.
+        type: Kind::Choice(&CLOSURES), Default("\"point\"");
+        /// A link of the file, or `ground`.
+        first: Text, Required;
+        /// The point on it, in its frame.
+        first_at: vector(D::LENGTH), Default("[0.0, 0.0, 0.0]");
+        /// The axis on it, in its frame, of any length.
+        first_axis: vector(D::NONE), Default("[0.0, 0.0, 1.0]"), only_for &["hinge"];
+        /// Another link of the file, or `ground`.
+        second: Text, Required;
+        /// The point on it, in its frame.
+        second_at: vector(D::LENGTH), Default("[0.0, 0.0, 0.0]");
+        /// The axis on it, in its frame, of any length.
+        second_axis: vector(D::NONE), Default("[0.0, 0.0, 1.0]"), only_for &["hinge"];
+    }
+}

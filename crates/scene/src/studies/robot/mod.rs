@@ -1,0 +1,124 @@
+//! The motion of a tree of rigid bodies from a URDF file.
+
+mod build;
+mod figure;
+mod gltf;
+mod results;
+mod run;
+
+use std::path::PathBuf;
+
+use piola_multibody::{ClosedTree, Visual};
+
+use super::StudyPlan;
+use crate::model::TimeSpan;
+use piola_document::words;
+
+pub use run::{RobotMotion, RobotSample};
+
+/// A tree with all that starts and drives it.
+///
+/// # Example
+/// ```no_run
+/// use piola_scene::studies::Subject;
+/// use piola_scene::SceneFile;
+/// let file = SceneFile::load("scenes/two-link-arm.toml".as_ref(), &[])?;
+/// let SceneFile::Study(study) = file else { panic!() };
+/// let Subject::Robot(robot) = study.subject else { panic!() };
+/// assert_eq!(robot.closed.tree().freedoms(), 2);
+/// # Ok::<(), piola_scene::SceneError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct RobotStudy {
+    /// The file.
+    pub file: PathBuf,
+    /// The tree with its closures: mimic joints, locked joints and loops.
+    pub closed: ClosedTree,
+    /// What the bodies look like.
+    pub visuals: Vec<Visual>,
+    /// The span of time.
+    pub time: TimeSpan,
+    /// Relative tolerance of a step.
+    pub tolerance: f64,
+    /// Instants that are recorded.
+    pub samples: u32,
+    /// Whether the motion is written for viewers.
+    pub animation: bool,
+    /// Whether the run stops before singular positions.
+    pub stops: bool,
+    /// Coordinates and rates at the start, on the closures.
+    pub start: (Vec<f64>, Vec<f64>),
+    /// What drives each freedom.
+    pub drives: Vec<JointDrive>,
+    /// The names of the coordinates, and of the rates.
+    pub names: [Vec<String>; 2],
+    /// Coulomb friction that the file gives and nothing applies: the joints.
+    pub frictions: Vec<String>,
+}
+
+/// What drives a freedom: τ = `effort` − `damping` v − `stiffness` (q − `rest`).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointDrive {
+    /// The coordinate of a freedom that is the rate of one.
+    pub coordinate: Option<usize>,
+    /// Constant torque or force, N m or N.
+    pub effort: f64,
+    /// Damping, N m s or N s/m.
+    pub damping: f64,
+    /// Stiffness, N m/rad or N/m.
+    pub stiffness: f64,
+    /// Coordinate of the spring at rest.
+    pub rest: f64,
+    /// Lower and upper limit of the coordinate.
+    pub limits: [f64; 2],
+}
+
+impl JointDrive {
+    /// The torque without that of the spring, and the torque and energy of the spring.
+    fn efforts(&self, q: &[f64], v: f64) -> [f64; 3] {
+        let stretch = self.coordinate.map_or(0.0, |coordinate| q[coordinate] - self.rest);
+        let spring = -self.stiffness * stretch;
+        [self.effort - self.damping * v, spring, -0.5 * spring * stretch]
+    }
+}
+
+impl RobotStudy {
+    /// Fills a plan; the tables and figures of this study.
+    pub(super) fn plan(&self, plan: &mut StudyPlan) -> (&'static [&'static str], &'static [&'static str]) {
+        let tree = self.closed.tree();
+        plan.system =
+            format!("robot of {} bodies with {} freedoms from {}", tree.bodies(), tree.freedoms(), self.file.display());
+        plan.method = format!(
+            "dormand-prince-853, relative tolerance {:e}, {} s to {} s, recorded at {} instants",
+            self.tolerance,
+            words::number(self.time.start),
+            words::number(self.time.end),
+            self.samples
+        );
+        plan.reason = "articulated bodies: each evaluation takes time in proportion to the joints".to_string();
+        plan.compute("accelerations", format!("{} links behind elementary joints", tree.links()));
+        let merged = tree.bodies() - tree.joints().iter().filter(|place| 0 < place.joint.kind.freedoms()).count();
+        if 0 < merged {
+            plan.skip("fixed joints", format!("merged when the tree is built: {merged}"));
+        }
+        if self.closed.conditions() == 0 {
+            plan.skip("closures", "no [[closure]], mimic joint or locked joint");
+        } else {
+            plan.compute("closures", format!("{} conditions, by multipliers", self.closed.conditions()));
+            let how = if self.stops { "the run stops before them" } else { "passed on the branch of the velocity" };
+            plan.compute("singular positions", how);
+        }
+        plan.compute("energy balance", "energies less the work of torques and damping, at every recorded instant");
+        plan.skip("limits of joints", "not enforced: the summary names the joints that leave them");
+        if !self.frictions.is_empty() {
+            plan.skip("Coulomb friction", format!("not applied: {}", self.frictions.join(", ")));
+        }
+        plan.skip("contact", "bodies pass through each other");
+        if self.animation {
+            plan.files.push("motion.gltf".to_string());
+        } else {
+            plan.skip("animation", "robot.animation = false");
+        }
+        (&["coordinates.csv", "energies.csv"], &["coordinates.svg", "energies.svg"])
+    }
+}

@@ -1,0 +1,204 @@
+//! Runs a robot and keeps its history.
+
+use core::ops::ControlFlow;
+
+use piola_integrators::{DormandPrince853, Ending, Field, IntegratorsError, State, Tolerance};
+use piola_multibody::{MultibodyError, TreeWorkspace};
+
+use super::RobotStudy;
+use crate::run::Outcome;
+use crate::studies::observer::Observer;
+
+/// A recorded instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RobotSample {
+    /// Time, s.
+    pub t: f64,
+    /// Coordinates.
+    pub q: Vec<f64>,
+    /// Rates.
+    pub v: Vec<f64>,
+    /// Kinetic energy, potential energy in gravity, energy of springs, J.
+    pub energies: [f64; 3],
+    /// Work of torques, forces and damping since the start, J.
+    pub work: f64,
+}
+
+impl RobotSample {
+    /// What the balance of energy compares: it is constant.
+    fn balance(&self) -> f64 {
+        self.energies.iter().sum::<f64>() - self.work
+    }
+}
+
+/// A run with all that it recorded, however far it came.
+#[derive(Debug, Clone, Default)]
+pub struct RobotMotion {
+    /// The record.
+    pub samples: Vec<RobotSample>,
+    /// Accepted steps, rejected ones, evaluations.
+    pub cost: [u64; 3],
+    /// Time reached, s.
+    pub reached: f64,
+    /// The largest change of energies less work, over the largest energy or work met.
+    pub energy_error: f64,
+    /// Singular positions that the run went through: times, s, and closures.
+    pub singular_positions: Vec<(f64, String)>,
+    /// The first instants at which joints are beyond their limits, s, and the joints.
+    pub beyond_limits: Vec<(f64, String)>,
+    /// The names of the coordinates.
+    pub names: Vec<String>,
+}
+
+/// A motion with the work of its torques as one number more.
+struct WithWork<'a, F> {
+    motion: F,
+    robot: &'a RobotStudy,
+}
+
+impl<F: Field<Error = MultibodyError>> Field for WithWork<'_, F> {
+    type Error = MultibodyError;
+    fn dimension(&self) -> usize {
+        self.motion.dimension() + 1
+    }
+    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), MultibodyError> {
+        let n = self.motion.dimension();
+        self.motion.rate(t, &y[..n], &mut rate[..n])?;
+        let (q, v) = y[..n].split_at(self.robot.closed.tree().coordinates());
+        rate[n] = self.robot.drives.iter().zip(v).map(|(drive, &v)| drive.efforts(q, v)[0] * v).sum();
+        Ok(())
+    }
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), MultibodyError> {
+        let n = self.motion.dimension();
+        self.motion.project(t, &mut y[..n])
+    }
+    fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
+        let n = self.motion.dimension();
+        self.motion.magnitudes(&y[..n], &mut magnitudes[..n]);
+        // The work follows the motion: its error decides on no step.
+        magnitudes[n] = f64::INFINITY;
+    }
+}
+
+impl RobotStudy {
+    fn drive(&self, q: &[f64], v: &[f64], tau: &mut [f64]) {
+        for ((tau, drive), &v) in tau.iter_mut().zip(&self.drives).zip(v) {
+            let [effort, spring, _] = drive.efforts(q, v);
+            *tau = effort + spring;
+        }
+    }
+
+    pub(in crate::studies) fn run(&self, observer: &mut Observer<'_>) -> (RobotMotion, Outcome) {
+        let mut found = RobotMotion { names: self.names[0].clone(), ..RobotMotion::default() };
+        let forces = |_t: f64, q: &[f64], v: &[f64], tau: &mut [f64]| self.drive(q, v, tau);
+        let outcome = if self.closed.conditions() == 0 {
+            self.follow(&mut WithWork { motion: self.closed.tree().motion(forces), robot: self }, &mut found, observer)
+        } else {
+            let mut motion = self.closed.motion(forces);
+            if self.stops {
+                motion = motion.stopping_at_singular_positions();
+            }
+            let mut motion = WithWork { motion, robot: self };
+            let outcome = self.follow(&mut motion, &mut found, observer);
+            let passed = motion.motion.singular_positions().iter();
+            let named = |condition| self.closed.closure_of(condition).to_string();
+            found.singular_positions = passed.map(|position| (position.t, named(position.condition))).collect();
+            outcome
+        };
+        found.judge(self);
+        let outcome = match outcome {
+            Ok(Ending::Stopped) => Outcome::Interrupted,
+            Ok(_) => Outcome::Completed,
+            Err(why) => Outcome::Failed(why),
+        };
+        (found, outcome)
+    }
+
+    fn follow<F: Field<Error = MultibodyError>>(
+        &self,
+        motion: &mut F,
+        found: &mut RobotMotion,
+        observer: &mut Observer<'_>,
+    ) -> Result<Ending, String> {
+        let (start, end) = (self.time.start, self.time.end);
+        found.reached = start;
+        let values = [&self.start.0[..], &self.start.1, &[0.0]].concat();
+        let mut y = values.clone();
+        let in_words = |error: IntegratorsError| error.to_string();
+        let mut state = State::new(start, values).map_err(in_words)?;
+        let tolerance = Tolerance::new(self.tolerance, self.tolerance).map_err(in_words)?;
+        let mut work = self.closed.tree().workspace();
+        self.record(start, &mut y, &mut work, found).map_err(|error| error.to_string())?;
+        let last = f64::from(self.samples - 1);
+        let mut refused = None;
+        let result = DormandPrince853::new(tolerance).integrate(motion, &mut state, end, |step| {
+            let forward = (step.time() - start).abs();
+            while found.samples.len() < self.samples as usize {
+                let share = found.samples.len() as f64 / last;
+                let t = if share < 1.0 { start + share * (end - start) } else { end };
+                if forward < (t - start).abs() {
+                    break;
+                }
+                let sampled = step.at(t, &mut y).map_err(|error| error.to_string());
+                let recorded =
+                    sampled.and_then(|()| self.record(t, &mut y, &mut work, found).map_err(|error| error.to_string()));
+                if let Err(why) = recorded {
+                    refused = Some(why);
+                    return ControlFlow::Break(());
+                }
+            }
+            found.reached = step.time();
+            found.cost[0] += 1;
+            observer(forward / (end - start).abs())
+        });
+        if let Some(why) = refused {
+            return Err(why);
+        }
+        let report = result.map_err(|error| error.to_string())?;
+        found.cost = [report.steps, report.rejected, report.evaluations];
+        Ok(report.ending)
+    }
+
+    fn record(
+        &self,
+        t: f64,
+        y: &mut [f64],
+        work: &mut TreeWorkspace<f64>,
+        found: &mut RobotMotion,
+    ) -> Result<(), MultibodyError> {
+        let tree = self.closed.tree();
+        let (q, rest) = y.split_at_mut(tree.coordinates());
+        tree.normalise(q)?;
+        let (v, done) = rest.split_at(tree.freedoms());
+        let energies = tree.tree_energies(work, q, v)?;
+        let springs = self.drives.iter().zip(v).map(|(drive, &v)| drive.efforts(q, v)[2]).sum();
+        found.samples.push(RobotSample {
+            t,
+            q: q.to_vec(),
+            v: v.to_vec(),
+            energies: [energies.kinetic, energies.potential, springs],
+            work: done[0],
+        });
+        Ok(())
+    }
+}
+
+impl RobotMotion {
+    fn judge(&mut self, robot: &RobotStudy) {
+        let Some(first) = self.samples.first().map(RobotSample::balance) else { return };
+        let (mut change, mut size) = (0.0_f64, 0.0_f64);
+        for sample in &self.samples {
+            change = change.max((sample.balance() - first).abs());
+            size = sample.energies.iter().chain([&sample.work]).fold(size, |size, energy| size.max(energy.abs()));
+        }
+        self.energy_error = if 0.0 < size { change / size } else { 0.0 };
+        for drive in &robot.drives {
+            let Some(coordinate) = drive.coordinate else { continue };
+            let [low, high] = drive.limits;
+            let beyond = |sample: &&RobotSample| sample.q[coordinate] < low || high < sample.q[coordinate];
+            if let Some(sample) = self.samples.iter().find(beyond) {
+                self.beyond_limits.push((sample.t, self.names[coordinate].clone()));
+            }
+        }
+    }
+}
