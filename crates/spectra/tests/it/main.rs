@@ -3,6 +3,7 @@
 mod alloc;
 mod continuous;
 mod fits;
+mod interconversion;
 mod refusals;
 mod responses;
 mod superposition;
