@@ -19,4 +19,7 @@ pub use error::SpectraError;
 pub use fitting::{ModeCount, RetardationFit, SpectrumFit, SpectrumOptions, fit_spectrum, fit_spectrum_until};
 pub use retardation::{RetardationMode, RetardationSpectrum};
 pub use spectrum::{RelaxationMode, RelaxationSpectrum};
-pub use superposition::{IsothermalCurve, ShiftFit, fit_arrhenius, fit_williams_landel_ferry, horizontal_shifts};
+pub use superposition::{
+    CurveShift, IsothermalCurve, ShiftFit, fit_arrhenius, fit_williams_landel_ferry, horizontal_shifts,
+    shifts_along_both_axes,
+};
