@@ -166,7 +166,7 @@ fn continuous(name: &str, kind: Kind, density: &dyn Fn(f64) -> f64, window: [f64
         let found = fit_continuous(table.data(), false).expect("a spectrum");
         weights.push(found.regularisation.log10());
         let nodes = found.times.iter().zip(&found.spectrum).zip(&found.band);
-        // From half a decade within the data.
+        // Within the data.
         let ends = match kind {
             Kind::Oscillation => [-window[1], -window[0]],
             _ => window,
@@ -183,7 +183,8 @@ fn continuous(name: &str, kind: Kind, density: &dyn Fn(f64) -> f64, window: [f64
             inside += usize::from(is_inside);
             hits[k] += usize::from(is_inside);
             errors[k].push((height / truth).ln().abs());
-            halves[k].push(0.5 * (b / a).ln());
+            // Where nothing is known below, the upper half.
+            halves[k].push(if 0.0 < *a { 0.5 * (b / a).ln() } else { (b / height).ln() });
         }
     }
     for (errors, halves) in errors.iter_mut().zip(&mut halves) {
@@ -201,16 +202,6 @@ fn continuous(name: &str, kind: Kind, density: &dyn Fn(f64) -> f64, window: [f64
         share(inside, counted),
         weights[weights.len() / 2]
     );
-    if std::env::var_os("NODES").is_some() {
-        for (k, h) in hits.iter().enumerate() {
-            println!(
-                "  {k:>3} {:>6.1} % {:>6.3} {:>6.3}",
-                share(*h, tables as usize),
-                errors[k][(tables as usize * 95 / 100).min(errors[k].len() - 1)],
-                halves[k][tables as usize / 2]
-            );
-        }
-    }
 }
 
 fn main() {

@@ -194,3 +194,50 @@ fn stopped_fits_return_the_best_until_then() {
     let smooth = fit_continuous_until(data, false, &mut watch).expect("the smoothest");
     assert_eq!(smooth.outcome, Outcome::Interrupted);
 }
+
+#[test]
+fn intervals_hold_the_truth_as_often_as_they_say() {
+    let melt = spectrum(&[(1e5, 0.01), (3e4, 0.3), (1e3, 20.0)], 0.0);
+    let retardation = RetardationSpectrum::of(&melt);
+    let frequencies = decades(-3.0);
+    let times = decades(-3.5);
+    let (mut inside, mut counted) = ([0_usize; 2], [0_usize; 2]);
+    let mut count = |kind: usize, value: f64, interval: Option<[f64; 2]>| {
+        let [low, high] = interval.expect("determined");
+        counted[kind] += 1;
+        inside[kind] += usize::from(low <= value && value <= high);
+    };
+    for seed in 1..=200 {
+        let mut normal = super::Normal::new(seed);
+        let mut disturbed = |value: f64| value * (1.0 + 0.01 * normal.next());
+        let storage: Vec<f64> = frequencies.iter().map(|&w| disturbed(melt.storage_modulus(w))).collect();
+        let loss: Vec<f64> = frequencies.iter().map(|&w| disturbed(melt.loss_modulus(w))).collect();
+        let data = SpectrumData::Oscillation {
+            angular_frequencies: &frequencies,
+            storage_moduli: &storage,
+            loss_moduli: &loss,
+        };
+        let fit = fit_spectrum(data, SpectrumOptions { modes: Some(3), ..SpectrumOptions::default() }).expect("modes");
+        let intervals = fit.modulus_intervals.iter().zip(&fit.relaxation_time_intervals);
+        for (mode, (modulus, time)) in melt.modes().iter().zip(intervals) {
+            count(0, mode.modulus, *modulus);
+            count(0, mode.relaxation_time, *time);
+        }
+        let compliances: Vec<f64> = times.iter().map(|&t| disturbed(retardation.compliance(t))).collect();
+        let data = SpectrumData::Creep { times: &times, compliances: &compliances };
+        let fit = fit_spectrum(data, SpectrumOptions { modes: Some(2), ..SpectrumOptions::default() }).expect("modes");
+        let found = fit.retardation.expect("creep");
+        let intervals = found.compliance_intervals.iter().zip(&found.retardation_time_intervals);
+        for (mode, (compliance, time)) in retardation.modes().iter().zip(intervals) {
+            count(1, mode.compliance, *compliance);
+            count(1, mode.retardation_time, *time);
+        }
+        count(1, retardation.glassy_compliance(), found.glassy_interval);
+        count(1, retardation.fluidity(), found.fluidity_interval);
+    }
+    for (inside, counted) in inside.into_iter().zip(counted) {
+        assert_eq!(counted, 1200);
+        let share = inside as f64 / counted as f64;
+        assert!((0.92..=0.98).contains(&share), "{share}");
+    }
+}
