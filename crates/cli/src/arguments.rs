@@ -38,8 +38,8 @@ pub(crate) enum Command {
     FitFlow(FitFlowArguments),
     /// Solve a flow of any fluid: its drive or an answer in, all answers with their error bounds, the profile and a figure out.
     Flow(SolveArguments),
-    /// Find the relaxation spectrum of a material from G′ and G″ or from G(t), at one temperature or at several, with shifts, a
-    /// master curve and Prony series.
+    /// Find the relaxation spectrum of a material from G′ and G″, from G(t) or from creep J(t), at one temperature or at several, with
+    /// shifts, a master curve and Prony series.
     Spectrum(crate::spectra::SpectrumArguments),
     /// Load a specimen of any solid along a path of stretches or loads: all components of strain and stress and a figure out.
     /// Needs the feature `specimens` of the program.

@@ -6,27 +6,31 @@ use clap::Args;
 use piola_charts::Folder;
 use piola_measured::MeasuredError;
 use piola_measured::fitting::Program;
-use piola_measured::spectra::{SpectrumRequest, SpectrumTable, prony, spectrum};
+use piola_measured::spectra::{SpectrumRequest, SpectrumTable, prony, spectrum_until};
 
 use crate::Exit;
 use crate::commands::{note, refused};
-use crate::flows::show;
+use crate::flows::{show, watched};
+use crate::interrupt::Interrupt;
 
 #[derive(Debug, Args)]
 pub(crate) struct SpectrumArguments {
-    /// The measurements: CSV of G′ and G″ over the frequency, or of G over the time, with units in the header; several files for
-    /// several temperatures.
+    /// The measurements: CSV of G′ and G″ over the frequency, or of G or of J over the time, with units in the header; several files
+    /// for several temperatures.
     #[arg(required = true)]
     pub(crate) data: Vec<PathBuf>,
-    /// The number of modes; chosen from the data when absent.
+    /// The number of modes, of creep that of retardation modes; chosen from the data when absent.
     #[arg(long, value_name = "N")]
     pub(crate) modes: Option<usize>,
-    /// Fit an equilibrium modulus, as of a solid.
+    /// Fit an equilibrium modulus, as of a solid; without it creep flows in the end.
     #[arg(long)]
     pub(crate) equilibrium: bool,
     /// The temperature of the spectrum, as `150 °C`; without it, the middle one.
     #[arg(long, value_name = "TEMPERATURE", allow_hyphen_values = true)]
     pub(crate) reference_temperature: Option<String>,
+    /// Shift temperatures vertically, too.
+    #[arg(long)]
+    pub(crate) vertical: bool,
     /// Write the Prony series for abaqus, ansys or febio; several times for several.
     #[arg(long = "card", value_name = "PROGRAM")]
     pub(crate) cards: Vec<String>,
@@ -39,6 +43,7 @@ pub(crate) struct SpectrumArguments {
 }
 
 pub(crate) fn find(arguments: &SpectrumArguments) -> Exit {
+    let interrupt = Interrupt::listen();
     let prepared = SpectrumTable::load(&arguments.data).and_then(|table| {
         let mut request = SpectrumRequest::default();
         if let Some(text) = &arguments.reference_temperature {
@@ -46,7 +51,8 @@ pub(crate) fn find(arguments: &SpectrumArguments) -> Exit {
         }
         request.modes = arguments.modes;
         request.equilibrium = arguments.equilibrium;
-        let found = spectrum(&table, &request)?;
+        request.vertical = arguments.vertical;
+        let found = watched(&table.name(), &interrupt, |watch| spectrum_until(&table, &request, watch))?;
         let card = |text: &String| -> Result<(String, String), MeasuredError> {
             let program: Program = text.parse()?;
             Ok((format!("{text}-prony.{}", program.ending()), prony(program, &found.fit.spectrum)?))
@@ -61,7 +67,9 @@ pub(crate) fn find(arguments: &SpectrumArguments) -> Exit {
             let written = found.write(&folder, &table, &cards);
             let text = if arguments.json { found.summary(&table) } else { found.table(&table) };
             show(&text, arguments.json, &folder, &written);
-            if !found.is_settled() {
+            if found.interrupted {
+                note("interrupted: what was fitted until then is written");
+            } else if !found.is_settled() {
                 note("error: the search of the modes did not converge");
             }
             if found.is_settled() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }

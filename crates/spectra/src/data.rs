@@ -1,7 +1,9 @@
 //! Measured responses that a spectrum is fitted to.
 
-use crate::SpectraError;
+use piola_numerics::Real;
+
 use crate::error::check;
+use crate::{SpectraError, kernel};
 
 /// A measured linear response.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +25,24 @@ pub enum SpectrumData<'d> {
         /// G, Pa; 0 < G.
         moduli: &'d [f64],
     },
+    /// Creep after a step of stress: J at times.
+    Creep {
+        /// t, s; 0 < t.
+        times: &'d [f64],
+        /// J, 1/Pa; 0 < J.
+        compliances: &'d [f64],
+    },
+}
+
+/// A term of a response beside its modes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Term {
+    /// Gₑ.
+    Equilibrium,
+    /// `J_g`.
+    Glassy,
+    /// 1/η₀.
+    Flow,
 }
 
 impl SpectrumData<'_> {
@@ -30,28 +50,43 @@ impl SpectrumData<'_> {
     pub(crate) fn count(&self) -> usize {
         match self {
             Self::Oscillation { angular_frequencies, .. } => 2 * angular_frequencies.len(),
-            Self::Relaxation { times, .. } => times.len(),
+            Self::Relaxation { times, .. } | Self::Creep { times, .. } => times.len(),
         }
     }
 
-    /// The least and the greatest relaxation time that the abscissas reach: 1/ω or t.
+    pub(crate) const fn is_creep(&self) -> bool {
+        matches!(self, Self::Creep { .. })
+    }
+
+    /// The terms beside the modes, of a solid or a liquid.
+    pub(crate) const fn terms(&self, is_solid: bool) -> &'static [Term] {
+        match (self, is_solid) {
+            (Self::Creep { .. }, true) => &[Term::Glassy],
+            (Self::Creep { .. }, false) => &[Term::Glassy, Term::Flow],
+            (_, true) => &[Term::Equilibrium],
+            (_, false) => &[],
+        }
+    }
+
+    /// The least and the greatest time that the abscissas reach: 1/ω or t.
     pub(crate) fn reach(&self) -> [f64; 2] {
         let (abscissas, is_frequency) = match *self {
             Self::Oscillation { angular_frequencies, .. } => (angular_frequencies, true),
-            Self::Relaxation { times, .. } => (times, false),
+            Self::Relaxation { times, .. } | Self::Creep { times, .. } => (times, false),
         };
         let time = |x: &f64| if is_frequency { x.recip() } else { *x };
         let widen = |[low, high]: [f64; 2], t: f64| [low.min(t), high.max(t)];
         abscissas.iter().map(time).fold([f64::INFINITY, 0.0], widen)
     }
 
-    /// Largest measured modulus.
-    pub(crate) fn largest(&self) -> f64 {
+    /// The least and the largest measured modulus or compliance.
+    pub(crate) fn range(&self) -> [f64; 2] {
         let moduli = match self {
             Self::Oscillation { storage_moduli, .. } => storage_moduli,
             Self::Relaxation { moduli, .. } => moduli,
+            Self::Creep { compliances, .. } => compliances,
         };
-        moduli.iter().fold(0.0, |largest: f64, &g| largest.max(g))
+        moduli.iter().fold([f64::INFINITY, 0.0], |[least, largest], &g| [least.min(g), largest.max(g)])
     }
 
     /// Refuses lists of unequal length and numbers that are not finite and positive.
@@ -66,6 +101,52 @@ impl SpectrumData<'_> {
             Self::Relaxation { times, moduli } => {
                 positive("time", times, times.len(), "0 < t")?;
                 positive("relaxation modulus", moduli, times.len(), "0 < G")
+            }
+            Self::Creep { times, compliances } => {
+                positive("time", times, times.len(), "0 < t")?;
+                positive("creep compliance", compliances, times.len(), "0 < J")
+            }
+        }
+    }
+
+    /// Calls `add(row, response of one mode/measured)` for each measured number; the mode has a modulus, of creep a compliance.
+    pub(crate) fn mode<T: Real>(&self, ln_height: T, ln_time: T, mut add: impl FnMut(usize, T)) {
+        let height = ln_height.exp();
+        match *self {
+            Self::Oscillation { angular_frequencies, storage_moduli, loss_moduli } => {
+                let rows = angular_frequencies.iter().zip(storage_moduli).zip(loss_moduli).enumerate();
+                for (row, ((&frequency, &storage), &loss)) in rows {
+                    let x = (T::lit(frequency.ln()) + ln_time).exp();
+                    add(2 * row, height * kernel::storage(x) / T::lit(storage));
+                    add(2 * row + 1, height * kernel::loss(x) / T::lit(loss));
+                }
+            }
+            Self::Relaxation { times, moduli } => {
+                for (row, (&t, &modulus)) in times.iter().zip(moduli).enumerate() {
+                    let ratio = (T::lit(t.ln()) - ln_time).exp();
+                    add(row, height * kernel::relaxation(ratio) / T::lit(modulus));
+                }
+            }
+            Self::Creep { times, compliances } => {
+                for (row, (&t, &compliance)) in times.iter().zip(compliances).enumerate() {
+                    let ratio = (T::lit(t.ln()) - ln_time).exp();
+                    add(row, height * kernel::growth(ratio) / T::lit(compliance));
+                }
+            }
+        }
+    }
+
+    /// Calls `add(row, response of a unit of the term/measured)` for each number to which it contributes.
+    pub(crate) fn term(&self, term: Term, mut add: impl FnMut(usize, f64)) {
+        match *self {
+            Self::Oscillation { storage_moduli, .. } => {
+                storage_moduli.iter().enumerate().for_each(|(row, g)| add(2 * row, g.recip()));
+            }
+            Self::Relaxation { moduli, .. } => moduli.iter().enumerate().for_each(|(row, g)| add(row, g.recip())),
+            Self::Creep { times, compliances } => {
+                for (row, (t, j)) in times.iter().zip(compliances).enumerate() {
+                    add(row, if term == Term::Flow { t / j } else { j.recip() });
+                }
             }
         }
     }

@@ -60,6 +60,16 @@ pub enum SpectraError {
         /// The second curve.
         second: usize,
     },
+    /// Two neighbouring curves are straight lines of one slope where they overlap.
+    #[error(
+        "curves {first} and {second} are straight lines in logarithms: they slide along themselves, and no vertical shift is known"
+    )]
+    StraightCurves {
+        /// The first curve, from 0.
+        first: usize,
+        /// The second curve.
+        second: usize,
+    },
     /// No law of temperature was found.
     #[error("{law}: no positive constants were found for the shifts")]
     NoShift {

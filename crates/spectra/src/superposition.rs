@@ -1,7 +1,7 @@
 //! Time–temperature superposition: shifts by overlap, and the constants of their laws.
 //!
 //! ```text
-//! y(ω, θ) = y(ω aₜ, θ₀)      ln aₜ = (E/R) (1/θ − 1/θ₀)      log₁₀ aₜ = −C₁ (θ − θ₀)/(C₂ + θ − θ₀)
+//! bₜ y(ω, θ) = y(ω aₜ, θ₀)      ln aₜ = (E/R) (1/θ − 1/θ₀)      log₁₀ aₜ = −C₁ (θ − θ₀)/(C₂ + θ − θ₀)
 //! ```
 
 use nalgebra::DMatrix;
@@ -51,16 +51,82 @@ pub struct IsothermalCurve<'c> {
 /// # Source
 /// J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed., Wiley, 1980, chapter 11.
 pub fn horizontal_shifts(curves: &[IsothermalCurve<'_>], reference: usize) -> Result<Vec<f64>, SpectraError> {
+    let curves: Vec<&[IsothermalCurve<'_>]> = curves.iter().map(core::slice::from_ref).collect();
+    Ok(chained(&curves, reference, false)?.iter().map(|shift| shift.ln_horizontal).collect())
+}
+
+/// A shift along both axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CurveShift {
+    /// ln aₜ, added to ln ω.
+    pub ln_horizontal: f64,
+    /// ln bₜ, added to ln y.
+    pub ln_vertical: f64,
+}
+
+/// Shifts along both axes, from the curves of each temperature, such as G′ and G″, in the order of the temperatures.
+///
+/// ```text
+/// bₜ y(ω, θ) = y(ω aₜ, θ₀)      bₜ = ρ₀ θ₀/(ρ θ) of rubber elasticity, near 1
+/// ```
+/// All curves of a temperature are shifted alike. The shift of two neighbours minimises the variance of ln y − ln yₙ over the points of
+/// either that the other one reaches; its mean is ln bₜ.
+///
+/// # Errors
+/// As [`horizontal_shifts`]; [`SpectraError::StraightCurves`] where neighbours overlap along straight lines of one slope only, which slide
+/// along themselves; [`SpectraError::WrongLength`] unless every temperature has as many curves as the first.
+///
+/// # Accuracy
+/// As [`horizontal_shifts`], over the difference of slopes along the curves instead of the slope.
+///
+/// # Example
+/// ```
+/// use piola_spectra::{IsothermalCurve, shifts_along_both_axes};
+/// // y = ω + ω²; the warm one has aₜ = 1/2 and bₜ = 1.1.
+/// let frequencies: Vec<f64> = (0..25).map(|k| 10.0_f64.powf(f64::from(k) / 12.0 - 1.0)).collect();
+/// let cold: Vec<f64> = frequencies.iter().map(|w| w + w * w).collect();
+/// let warm: Vec<f64> = frequencies.iter().map(|w| (0.5 * w + 0.25 * w * w) / 1.1).collect();
+/// let [cold, warm] = [&cold, &warm].map(|y| [IsothermalCurve { angular_frequencies: &frequencies, moduli: y }]);
+/// let shifts = shifts_along_both_axes(&[&cold, &warm], 0)?;
+/// assert!((shifts[1].ln_horizontal - 0.5_f64.ln()).abs() < 1e-2 && (shifts[1].ln_vertical - 1.1_f64.ln()).abs() < 1e-2);
+/// # Ok::<(), piola_spectra::SpectraError>(())
+/// ```
+///
+/// # Source
+/// J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed., Wiley, 1980, chapter 11.
+pub fn shifts_along_both_axes(
+    curves: &[&[IsothermalCurve<'_>]],
+    reference: usize,
+) -> Result<Vec<CurveShift>, SpectraError> {
+    chained(curves, reference, true)
+}
+
+/// Shifts of each over its neighbour, added up from the reference.
+fn chained(
+    curves: &[&[IsothermalCurve<'_>]],
+    reference: usize,
+    vertical: bool,
+) -> Result<Vec<CurveShift>, SpectraError> {
     check("reference", 0, reference as f64, "reference < number of curves", reference < curves.len())?;
-    let logarithms = curves.iter().map(logarithms).collect::<Result<Vec<_>, _>>()?;
-    let mut shifts = vec![0.0];
+    let of_temperature = |curves: &&[IsothermalCurve<'_>]| curves.iter().map(logarithms).collect::<Result<Vec<_>, _>>();
+    let logarithms = curves.iter().map(of_temperature).collect::<Result<Vec<_>, _>>()?;
+    let expected = logarithms[0].len();
+    if let Some(other) = logarithms.iter().find(|other| other.len() != expected) {
+        return Err(SpectraError::WrongLength { quantity: "curves of a temperature", expected, found: other.len() });
+    }
+    let mut shifts = vec![CurveShift::default()];
     for (first, pair) in logarithms.windows(2).enumerate() {
-        let shift = overlap(&pair[0], &pair[1]).ok_or(SpectraError::NoOverlap { first, second: first + 1 })?;
-        shifts.push(shifts[first] + shift);
+        let shift = overlap([&pair[0], &pair[1]], vertical, first)?;
+        let before = shifts[first];
+        shifts.push(CurveShift {
+            ln_horizontal: before.ln_horizontal + shift.ln_horizontal,
+            ln_vertical: before.ln_vertical + shift.ln_vertical,
+        });
     }
     let zero = shifts[reference];
     for shift in &mut shifts {
-        *shift -= zero;
+        shift.ln_horizontal -= zero.ln_horizontal;
+        shift.ln_vertical -= zero.ln_vertical;
     }
     Ok(shifts)
 }
@@ -85,51 +151,96 @@ fn logarithms(curve: &IsothermalCurve<'_>) -> Result<Vec<[f64; 2]>, SpectraError
     Ok(frequencies.iter().zip(moduli).map(|(w, y)| [w.ln(), y.ln()]).collect())
 }
 
-/// ln y of a curve at ln ω between its points; `None` outside.
-fn between(curve: &[[f64; 2]], at: f64) -> Option<f64> {
-    let next = curve.partition_point(|point| point[0] < at);
-    let [x, y] = *curve.get(next)?;
-    if next == 0 {
-        return (x <= at).then_some(y);
-    }
-    let [x0, y0] = curve[next - 1];
-    Some(y0 + (y - y0) * (at - x0) / (x - x0))
+/// ln y of a curve at ln ω between its points, and the slope there; `None` outside.
+fn between(curve: &[[f64; 2]], at: f64) -> Option<[f64; 2]> {
+    let next = curve.partition_point(|point| point[0] < at).max(1);
+    let ([x0, y0], [x, y]) = (curve[next - 1], *curve.get(next)?);
+    let slope = (y - y0) / (x - x0);
+    (x0 <= at).then_some([y0 + slope * (at - x0), slope])
 }
 
-/// The shift that lays `moved` over `fixed`; `None` where the ranges of their moduli are apart.
-fn overlap(fixed: &[[f64; 2]], moved: &[[f64; 2]]) -> Option<f64> {
-    const STEPS: u32 = 400;
-    let range = |curve: &[[f64; 2]]| {
-        let widen = |[low, high]: [f64; 2], point: &[f64; 2]| [low.min(point[1]), high.max(point[1])];
-        curve.iter().fold([f64::INFINITY, f64::NEG_INFINITY], widen)
+/// What is left between curves at a shift: number, mean and mean square of ln y − ln yₙ, and the variance of the slope along them.
+#[derive(Clone, Copy)]
+struct Gap {
+    count: usize,
+    mean: f64,
+    mean_square: f64,
+    slopes: f64,
+}
+
+fn gap(fixed: &[Vec<[f64; 2]>], moved: &[Vec<[f64; 2]>], shift: f64) -> Gap {
+    let (mut count, mut sums) = (0_usize, [0.0; 4]);
+    let mut add = |difference: f64, slope: f64| {
+        count += 1;
+        for (sum, term) in sums.iter_mut().zip([difference, difference * difference, slope, slope * slope]) {
+            *sum += term;
+        }
     };
-    let ([low, high], [lower, higher]) = (range(fixed), range(moved));
-    if high < lower || higher < low {
-        return None;
+    for (fixed, moved) in fixed.iter().zip(moved) {
+        for &[x, y] in moved {
+            if let Some([there, slope]) = between(fixed, x + shift) {
+                add(there - y, slope);
+            }
+        }
+        for &[x, y] in fixed {
+            if let Some([there, slope]) = between(moved, x - shift) {
+                add(y - there, slope);
+            }
+        }
     }
-    // Of both curves together; a pair of points alone matches anywhere.
-    let least = (fixed.len().min(moved.len()) / 3).max(4);
-    let mean_square = |shift: f64| {
-        let there = moved.iter().filter_map(|&[x, y]| Some(between(fixed, x + shift)? - y));
-        let back = fixed.iter().filter_map(|&[x, y]| Some(between(moved, x - shift)? - y));
-        let (count, sum) = there.chain(back).fold((0_usize, 0.0), |(n, sum), d| (n + 1, sum + d * d));
-        if count < least { f64::INFINITY } else { sum / count as f64 }
+    let [mean, mean_square, slope, slopes] = sums.map(|sum| sum / count as f64);
+    Gap { count, mean, mean_square, slopes: slopes - slope * slope }
+}
+
+/// The shift that lays `moved` over `fixed`, curve by curve.
+fn overlap([fixed, moved]: [&[Vec<[f64; 2]>]; 2], vertical: bool, first: usize) -> Result<CurveShift, SpectraError> {
+    const STEPS: u32 = 400;
+    /// Variance of slopes below which curves count as straight lines of one slope.
+    const STRAIGHT: f64 = 1e-6;
+    let apart = SpectraError::NoOverlap { first, second: first + 1 };
+    let widen = |ends: [f64; 2], value: f64| [ends[0].min(value), ends[1].max(value)];
+    let range = |curves: &[Vec<[f64; 2]>], axis: usize| {
+        curves.iter().flatten().fold([f64::INFINITY, f64::NEG_INFINITY], |ends, point| widen(ends, point[axis]))
     };
-    let (low, high) = (fixed[0][0] - moved[moved.len() - 1][0], fixed[fixed.len() - 1][0] - moved[0][0]);
+    for (fixed, moved) in fixed.iter().zip(moved) {
+        let [[low, high], [lower, higher]] =
+            [fixed, moved].map(|curve| curve.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |e, p| widen(e, p[1])));
+        if high < lower || higher < low {
+            return Err(apart);
+        }
+    }
+    // Of both temperatures together; a pair of points alone matches anywhere.
+    let points = |curves: &[Vec<[f64; 2]>]| curves.iter().map(Vec::len).sum::<usize>();
+    let least = (points(fixed).min(points(moved)) / 3).max(4 * fixed.len());
+    let misfit = |shift: f64| {
+        let Gap { count, mean, mean_square, .. } = gap(fixed, moved, shift);
+        match (least <= count, vertical) {
+            (false, _) => f64::INFINITY,
+            (_, false) => mean_square,
+            (_, true) => mean_square - mean * mean,
+        }
+    };
+    let ([start, end], [from, to]) = (range(fixed, 0), range(moved, 0));
+    let (low, high) = (start - to, end - from);
     let step = (high - low) / f64::from(STEPS);
     let grid = (0..=STEPS).map(|k| low + step * f64::from(k));
-    let best = grid.min_by(|&a, &b| mean_square(a).total_cmp(&mean_square(b)))?;
-    if !mean_square(best).is_finite() {
-        return None;
+    let best = grid.min_by(|&a, &b| misfit(a).total_cmp(&misfit(b))).unwrap_or(0.0);
+    if !misfit(best).is_finite() {
+        return Err(apart);
     }
     // Golden section about the best point of the grid.
     let share = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut a, mut b) = (best - step, best + step);
     for _ in 0..60 {
         let (left, right) = (b - share * (b - a), a + share * (b - a));
-        if mean_square(left) <= mean_square(right) { b = right } else { a = left }
+        if misfit(left) <= misfit(right) { b = right } else { a = left }
     }
-    Some(0.5 * (a + b))
+    let ln_horizontal = 0.5 * (a + b);
+    let Gap { mean, slopes, .. } = gap(fixed, moved, ln_horizontal);
+    if vertical && slopes < STRAIGHT {
+        return Err(SpectraError::StraightCurves { first, second: first + 1 });
+    }
+    Ok(CurveShift { ln_horizontal, ln_vertical: if vertical { mean } else { 0.0 } })
 }
 
 /// A law of temperature fitted to shifts, with 95 % intervals of its constants.

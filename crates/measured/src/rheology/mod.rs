@@ -22,7 +22,7 @@ mod kind;
 mod oilfield;
 mod recovery;
 mod recovery_output;
-mod sweeps;
+pub(crate) mod sweeps;
 mod table;
 
 pub use fluids::{Comparison, FittedFluid, Request, compare, compare_until};

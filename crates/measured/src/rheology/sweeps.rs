@@ -62,7 +62,7 @@ const FEWEST: usize = 3;
 const MOST: usize = 12;
 
 /// The direction of each row's sweep: true where the drive rises; nothing if all rows go one way, or no way.
-pub(super) fn directions(drives: &[f64]) -> Option<Vec<bool>> {
+pub(crate) fn directions(drives: &[f64]) -> Option<Vec<bool>> {
     let mut rising = Vec::with_capacity(drives.len());
     let mut pieces: Vec<(bool, usize)> = Vec::new();
     let mut start = 0;
@@ -86,7 +86,7 @@ pub(super) fn directions(drives: &[f64]) -> Option<Vec<bool>> {
 }
 
 /// Falling beside rising responses.
-pub(super) fn hysteresis(rows: &[[f64; 2]], rising: &[bool]) -> Option<Hysteresis> {
+pub(crate) fn hysteresis(rows: &[[f64; 2]], rising: &[bool]) -> Option<Hysteresis> {
     let of = |up: bool| {
         let mut rows: Vec<[f64; 2]> =
             rows.iter().zip(rising).filter(|(_, way)| **way == up).map(|(row, _)| row.map(f64::ln)).collect();

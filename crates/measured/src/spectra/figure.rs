@@ -20,17 +20,28 @@ pub(super) fn drawn(table: &SpectrumTable, found: &MeasuredSpectrum) -> String {
         (false, false) => "time (s)",
         (false, true) => "time/aₜ (s)",
     };
-    let ordinate = if is_oscillation { "G′ and G″ (Pa)" } else { "G (Pa)" };
+    let ordinate = match found.response {
+        Response::Oscillation => "G′ and G″ (Pa)",
+        Response::Relaxation => "G (Pa)",
+        Response::Creep => "J (1/Pa)",
+    };
     let moduli = LogPanel { title: "measured and fitted", axes: [axis, ordinate], marks, curves, band: Vec::new() };
-    let modes = found.fit.spectrum.modes().iter().map(|mode| (mode.relaxation_time, mode.modulus)).collect();
+    let modes: Vec<(f64, f64)> = match &found.fit.retardation {
+        Some(creep) => creep.spectrum.modes().iter().map(|mode| (mode.retardation_time, mode.compliance)).collect(),
+        None => found.fit.spectrum.modes().iter().map(|mode| (mode.relaxation_time, mode.modulus)).collect(),
+    };
     let (mut curves, mut band) = (Vec::new(), Vec::new());
     if let Ok(continuous) = &found.continuous {
-        let times = continuous.relaxation_times.iter();
+        let times = continuous.times.iter();
         curves.push(times.clone().copied().zip(continuous.spectrum.iter().copied()).collect());
         band = times.copied().zip(continuous.band.iter().copied()).collect();
     }
-    let title = "modes (marks) and H(τ) with its band";
-    let spectra = LogPanel { title, axes: ["relaxation time (s)", "g, H (Pa)"], marks: modes, curves, band };
+    let (title, axes) = if found.response == Response::Creep {
+        ("modes (marks) and L(λ) with its band", ["retardation time (s)", "J, L (1/Pa)"])
+    } else {
+        ("modes (marks) and H(τ) with its band", ["relaxation time (s)", "g, H (Pa)"])
+    };
+    let spectra = LogPanel { title, axes, marks: modes, curves, band };
     let shifts = found.superposition.as_ref().map(|superposition| Panel {
         name: "shifts".to_owned(),
         axes: ["temperature (°C)".to_owned(), "ln aₜ".to_owned()],
@@ -39,7 +50,8 @@ pub(super) fn drawn(table: &SpectrumTable, found: &MeasuredSpectrum) -> String {
         is_curve: true,
     });
     let count = if shifts.is_some() { 3 } else { 2 };
-    let title = format!("{}: relaxation spectrum", table.name());
+    let kind = if found.response == Response::Creep { "retardation" } else { "relaxation" };
+    let title = format!("{}: {kind} spectrum", table.name());
     figure((380 * count, 420), &title, &|area| {
         let parts = area.split_evenly((1, count as usize));
         moduli.draw(&parts[0])?;

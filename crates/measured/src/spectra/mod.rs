@@ -1,41 +1,51 @@
-//! Relaxation spectra from tables of moduli, of one temperature or of several.
+//! Relaxation and retardation spectra from tables of moduli or compliances, of one temperature or of several.
 //!
 //! ```text
 //! angular frequency [rad/s],G' [Pa],G'' [Pa]          small oscillations
 //! time [s],G(t) [Pa]                                   relaxation after a step of strain
+//! time [s],J(t) [1/Pa]                                 creep after a step of stress
 //! temperature [°C],frequency [Hz],G' [kPa],G'' [kPa]   several temperatures: shifted to one curve
 //! ```
-//! A temperature may also stand in a comment, `# temperature: 150 °C`, one for each of several files. Shifts are horizontal:
+//! A temperature may also stand in a comment, `# temperature: 150 °C`, one for each of several files. Shifts are horizontal, and vertical
+//! where they are asked for; without these bₜ = 1:
 //!
 //! ```text
-//! G(ω, θ) = G(ω aₜ, θ₀)      G(t, θ) = G(t/aₜ, θ₀)
+//! bₜ G(ω, θ) = G(ω aₜ, θ₀)      bₜ G(t, θ) = G(t/aₜ, θ₀)      J(t, θ)/bₜ = J(t/aₜ, θ₀)
 //! ```
 
 mod card;
+mod columns;
 mod figure;
+mod isotherms;
 mod output;
 mod table;
 
 pub use card::prony;
-pub use piola_spectra::{RelaxationMode, RelaxationSpectrum};
+pub use piola_spectra::{RelaxationMode, RelaxationSpectrum, RetardationMode, RetardationSpectrum};
 pub use table::{Isotherm, Response, ResponseRow, SpectrumTable};
+
+use core::ops::ControlFlow;
 
 use piola_fluids::{Arrhenius, WilliamsLandelFerry};
 use piola_spectra::{
-    ContinuousSpectrum, IsothermalCurve, ShiftFit, SpectraError, SpectrumData, SpectrumFit, SpectrumOptions,
-    fit_arrhenius, fit_continuous, fit_spectrum, fit_williams_landel_ferry, horizontal_shifts,
+    ContinuousSpectrum, CurveShift, IsothermalCurve, ShiftFit, SpectraError, SpectrumData, SpectrumFit,
+    SpectrumOptions, fit_arrhenius, fit_continuous_until, fit_spectrum_until, fit_williams_landel_ferry,
+    horizontal_shifts, shifts_along_both_axes,
 };
 
 use crate::MeasuredError;
+use crate::comparison::Watch;
 
 /// A request for the spectra of a table.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct SpectrumRequest {
-    /// The number of modes; without it, the one of the least `AICc`.
+    /// The number of modes, of creep that of retardation modes; without it, the one of the least `AICc`.
     pub modes: Option<usize>,
-    /// Whether there is an equilibrium modulus, as of a solid.
+    /// Whether there is an equilibrium modulus, as of a solid; then creep does not flow.
     pub equilibrium: bool,
+    /// Whether isotherms are shifted vertically, too.
+    pub vertical: bool,
     /// The temperature of the spectrum, K, one that was measured; without it, the middle one.
     pub reference_temperature: Option<f64>,
 }
@@ -62,6 +72,8 @@ pub struct Superposition {
     pub reference_temperature: f64,
     /// θ, K, and ln aₜ of each isotherm, the coldest first.
     pub shifts: Vec<[f64; 2]>,
+    /// ln bₜ of each isotherm, if vertical shifts were asked for.
+    pub vertical: Option<Vec<f64>>,
     /// The activation energy.
     pub arrhenius: Result<ShiftFit<Arrhenius, 1>, SpectraError>,
     /// The constants C₁ and C₂.
@@ -74,9 +86,9 @@ pub struct Superposition {
 pub struct ShiftedRow {
     /// The temperature, K, if it was told.
     pub temperature: Option<f64>,
-    /// The measured row at the reference temperature: ω aₜ or t/aₜ, and the moduli.
+    /// The measured row at the reference temperature: ω aₜ or t/aₜ, and the moduli times bₜ, or the compliance over bₜ.
     pub row: ResponseRow,
-    /// The moduli of the spectrum there.
+    /// The moduli of the spectrum there, or its compliance twice.
     pub model: [f64; 2],
 }
 
@@ -96,12 +108,15 @@ pub struct MeasuredSpectrum {
     pub continuous: Result<ContinuousSpectrum, String>,
     /// All rows, in the order of ω or t.
     pub rows: Vec<ShiftedRow>,
+    /// Whether the caller stopped it: the best spectrum until then is here.
+    pub interrupted: bool,
 }
 
 /// Finds the spectra of a table.
 ///
-/// Several temperatures are first shifted over each other, by |G*| or by G(t). The discrete spectrum minimises the sum of squares of
-/// model/measured − 1.
+/// Several temperatures are first shifted over each other, by |G*|, by G(t) or by J(t); with vertical shifts by G′ and G″ together. The
+/// discrete spectrum minimises the sum of squares of model/measured − 1. Of creep it is a retardation spectrum; its relaxation spectrum is
+/// the exact conversion.
 ///
 /// # Errors
 /// [`MeasuredError::Spectra`] for data that do not overlap, too few numbers, or a search that finds nothing;
@@ -118,13 +133,32 @@ pub struct MeasuredSpectrum {
 /// # Ok::<(), piola_measured::MeasuredError>(())
 /// ```
 pub fn spectrum(table: &SpectrumTable, request: &SpectrumRequest) -> Result<MeasuredSpectrum, MeasuredError> {
+    spectrum_until(table, request, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The same until `watch`, which is told the finished part of the work, breaks: the best spectrum until then is returned.
+///
+/// # Errors
+/// As [`spectrum`].
+pub fn spectrum_until(
+    table: &SpectrumTable,
+    request: &SpectrumRequest,
+    watch: Watch<'_>,
+) -> Result<MeasuredSpectrum, MeasuredError> {
+    /// The share of the time that the modes take.
+    const MODES: f64 = 0.6;
     let superposition = superposed(table, request)?;
     let response = table.response;
     let mut rows: Vec<(Option<f64>, ResponseRow)> = Vec::new();
     for (index, isotherm) in table.isotherms.iter().enumerate() {
-        let shift = superposition.as_ref().map_or(1.0, |found| found.shifts[index][1].exp());
-        let factor = if response == Response::Oscillation { shift } else { shift.recip() };
-        let shifted = isotherm.rows.iter().map(|row| ResponseRow { at: factor * row.at, ..*row });
+        let along = superposition.as_ref().map_or(1.0, |found| found.shifts[index][1].exp());
+        let across = superposition.as_ref().and_then(|found| found.vertical.as_ref()).map_or(1.0, |b| b[index].exp());
+        let factor = if response == Response::Oscillation { along } else { along.recip() };
+        let height = if response == Response::Creep { across.recip() } else { across };
+        let shifted = isotherm
+            .rows
+            .iter()
+            .map(|row| ResponseRow { at: factor * row.at, moduli: row.moduli.map(|modulus| height * modulus) });
         rows.extend(shifted.map(|row| (isotherm.temperature, row)));
     }
     rows.sort_by(|a, b| a.1.at.total_cmp(&b.1.at));
@@ -135,23 +169,29 @@ pub fn spectrum(table: &SpectrumTable, request: &SpectrumRequest) -> Result<Meas
             SpectrumData::Oscillation { angular_frequencies: &at, storage_moduli: &first, loss_moduli: &second }
         }
         Response::Relaxation => SpectrumData::Relaxation { times: &at, moduli: &first },
+        Response::Creep => SpectrumData::Creep { times: &at, compliances: &first },
     };
     let SpectrumRequest { modes, equilibrium, .. } = *request;
     let options = SpectrumOptions { modes, equilibrium, ..SpectrumOptions::default() };
-    let fit = fit_spectrum(data, options)?;
-    let is_at_most = modes.is_none() && fit.spectrum.modes().len() == options.most_modes;
-    let continuous = if equilibrium {
-        Err("it is that of a liquid".to_owned())
+    let fit = fit_spectrum_until(data, options, &mut |done| watch(MODES * done))?;
+    let tried = fit.retardation.as_ref().map_or(fit.spectrum.modes().len(), |found| found.spectrum.modes().len());
+    let is_at_most = modes.is_none() && tried == options.most_modes;
+    let continuous = if fit.interrupted {
+        Err("interrupted".to_owned())
     } else {
-        fit_continuous(data).map_err(|error| error.to_string())
+        let found = fit_continuous_until(data, equilibrium, &mut |done| watch(MODES + (1.0 - MODES) * done));
+        found.map_err(|error| error.to_string())
     };
-    let model = |at: f64| match response {
-        Response::Oscillation => [fit.spectrum.storage_modulus(at), fit.spectrum.loss_modulus(at)],
-        Response::Relaxation => [fit.spectrum.relaxation_modulus(at); 2],
+    let interrupted =
+        fit.interrupted || continuous.as_ref().is_ok_and(|found| found.outcome == piola_fit::Outcome::Interrupted);
+    let model = |at: f64| match (response, &fit.retardation) {
+        (Response::Oscillation, _) => [fit.spectrum.storage_modulus(at), fit.spectrum.loss_modulus(at)],
+        (Response::Creep, Some(creep)) => [creep.spectrum.compliance(at); 2],
+        _ => [fit.spectrum.relaxation_modulus(at); 2],
     };
     let rows = rows.into_iter().map(|(temperature, row)| ShiftedRow { temperature, row, model: model(row.at) });
     let rows = rows.collect();
-    Ok(MeasuredSpectrum { response, superposition, fit, is_at_most, continuous, rows })
+    Ok(MeasuredSpectrum { response, superposition, fit, is_at_most, continuous, rows, interrupted })
 }
 
 /// Shifts of several isotherms.
@@ -172,29 +212,54 @@ fn superposed(table: &SpectrumTable, request: &SpectrumRequest) -> Result<Option
     if temperatures.len() < 2 {
         return Ok(None);
     }
-    // Moduli over a frequency that rises: of relaxation 1/t.
-    let curve = |isotherm: &Isotherm| -> (Vec<f64>, Vec<f64>) {
-        let size = |row: &ResponseRow| match table.response {
-            Response::Oscillation => (row.at, row.moduli[0].hypot(row.moduli[1])),
-            Response::Relaxation => (row.at.recip(), row.moduli[0]),
+    // Moduli over a frequency that rises: of relaxation and creep 1/t, of creep 1/J.
+    let curve = |isotherm: &Isotherm, part: Part| -> (Vec<f64>, Vec<f64>) {
+        let size = |row: &ResponseRow| match (table.response, part) {
+            (Response::Oscillation, Part::Both) => (row.at, row.moduli[0].hypot(row.moduli[1])),
+            (Response::Oscillation, Part::Of(k)) => (row.at, row.moduli[k]),
+            (Response::Relaxation, _) => (row.at.recip(), row.moduli[0]),
+            (Response::Creep, _) => (row.at.recip(), row.moduli[0].recip()),
         };
         let mut points: Vec<(f64, f64)> = isotherm.rows.iter().map(size).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         points.dedup_by(|a, b| a.0 <= b.0);
         points.into_iter().unzip()
     };
-    let curves: Vec<(Vec<f64>, Vec<f64>)> = table.isotherms.iter().map(curve).collect();
-    let isotherms: Vec<IsothermalCurve<'_>> = curves
-        .iter()
-        .map(|(frequencies, moduli)| IsothermalCurve { angular_frequencies: frequencies, moduli })
-        .collect();
-    let logarithms = horizontal_shifts(&isotherms, reference)?;
+    let parts: &[Part] = match (request.vertical, table.response) {
+        (false, _) => &[Part::Both],
+        (true, Response::Oscillation) => &[Part::Of(0), Part::Of(1)],
+        (true, _) => &[Part::Of(0)],
+    };
+    let curves: Vec<Vec<(Vec<f64>, Vec<f64>)>> =
+        table.isotherms.iter().map(|isotherm| parts.iter().map(|&part| curve(isotherm, part)).collect()).collect();
+    let isothermal = |(frequencies, moduli)| IsothermalCurve { angular_frequencies: frequencies, moduli };
+    let isotherms: Vec<Vec<IsothermalCurve<'_>>> =
+        curves.iter().map(|of| of.iter().map(|(x, y)| isothermal((x.as_slice(), y.as_slice()))).collect()).collect();
+    let found: Vec<CurveShift> = if request.vertical {
+        let isotherms: Vec<&[IsothermalCurve<'_>]> = isotherms.iter().map(Vec::as_slice).collect();
+        shifts_along_both_axes(&isotherms, reference)?
+    } else {
+        let isotherms: Vec<IsothermalCurve<'_>> = isotherms.into_iter().flatten().collect();
+        let along = horizontal_shifts(&isotherms, reference)?;
+        along.into_iter().map(|ln_horizontal| CurveShift { ln_horizontal, ln_vertical: 0.0 }).collect()
+    };
+    let logarithms: Vec<f64> = found.iter().map(|shift| shift.ln_horizontal).collect();
     let reference_temperature = temperatures[reference];
     let shifts = temperatures.iter().zip(&logarithms).map(|(&temperature, &shift)| [temperature, shift]).collect();
     Ok(Some(Superposition {
         reference_temperature,
         shifts,
+        vertical: request.vertical.then(|| found.iter().map(|shift| shift.ln_vertical).collect()),
         arrhenius: fit_arrhenius(&temperatures, &logarithms, reference_temperature),
         williams_landel_ferry: fit_williams_landel_ferry(&temperatures, &logarithms, reference_temperature),
     }))
+}
+
+/// What of a row is shifted.
+#[derive(Clone, Copy)]
+enum Part {
+    /// |G*|, or the only number.
+    Both,
+    /// G′ or G″.
+    Of(usize),
 }

@@ -3,6 +3,7 @@
 use core::fmt::Write as _;
 
 use piola_charts::{Folder, Written};
+use piola_spectra::{RetardationFit, RetardationMode};
 use serde_json::{Value, json};
 
 use super::{MeasuredSpectrum, Response, SpectrumTable, Superposition, figure};
@@ -11,19 +12,30 @@ use super::{MeasuredSpectrum, Response, SpectrumTable, Superposition, figure};
 const ICE: f64 = 273.15;
 
 impl MeasuredSpectrum {
-    /// Whether the search of the discrete spectrum converged.
+    /// Whether the search of the discrete spectrum converged, and nobody stopped it.
     #[must_use]
     pub fn is_settled(&self) -> bool {
-        self.fit.outcome.is_converged()
+        self.fit.outcome.is_converged() && !self.interrupted
+    }
+
+    /// The intervals of each relaxation mode; none of creep.
+    fn intervals(&self) -> impl Iterator<Item = [Option<[f64; 2]>; 2]> {
+        let fit = &self.fit;
+        let of = |list: &[Option<[f64; 2]>], k: usize| list.get(k).copied().flatten();
+        (0..fit.spectrum.modes().len())
+            .map(move |k| [of(&fit.modulus_intervals, k), of(&fit.relaxation_time_intervals, k)])
     }
 
     /// The numbers, as they stand in `summary.json`.
     #[must_use]
     pub fn summary(&self, table: &SpectrumTable) -> String {
         let fit = &self.fit;
-        let modes = fit.spectrum.modes().iter().zip(fit.modulus_intervals.iter().zip(&fit.relaxation_time_intervals));
-        let modes: Vec<Value> = modes
-            .map(|(mode, (modulus, time))| {
+        let modes: Vec<Value> = fit
+            .spectrum
+            .modes()
+            .iter()
+            .zip(self.intervals())
+            .map(|(mode, [modulus, time])| {
                 json!({
                     "modulus": mode.modulus,
                     "modulus_interval": modulus,
@@ -40,12 +52,19 @@ impl MeasuredSpectrum {
                 "effective_parameters": found.effective_parameters,
                 "relative_error": found.relative_error,
                 "converged": found.outcome.is_converged(),
+                "equilibrium_modulus": found.equilibrium_modulus,
+                "glassy_compliance": found.glassy_compliance,
+                "fluidity": found.fluidity,
             }),
             Err(why) => json!({ "none": why }),
         };
         let summary = json!({
             "data": table.path.display().to_string(),
-            "response": if self.response == Response::Oscillation { "oscillation" } else { "relaxation" },
+            "response": match self.response {
+                Response::Oscillation => "oscillation",
+                Response::Relaxation => "relaxation",
+                Response::Creep => "creep",
+            },
             "rows": self.rows.len(),
             "read": table.notes,
             "superposition": self.superposition.as_ref().map(shifts),
@@ -57,6 +76,8 @@ impl MeasuredSpectrum {
             "steady_state_compliance": fit.spectrum.steady_state_compliance(),
             "relative_error": fit.relative_error,
             "converged": fit.outcome.is_converged(),
+            "interrupted": self.interrupted,
+            "retardation": fit.retardation.as_ref().map(retardation),
             "tried": tried,
             "most_modes_reached": self.is_at_most,
             "continuous": continuous,
@@ -70,7 +91,11 @@ impl MeasuredSpectrum {
     #[must_use]
     pub fn table(&self, table: &SpectrumTable) -> String {
         let fit = &self.fit;
-        let what = if self.response == Response::Oscillation { "G′ and G″" } else { "G(t)" };
+        let what = match self.response {
+            Response::Oscillation => "G′ and G″",
+            Response::Relaxation => "G(t)",
+            Response::Creep => "J(t)",
+        };
         let mut text = format!("{}: {} rows of {what}", table.name(), self.rows.len());
         let isotherms = table.isotherms.len();
         let _ =
@@ -82,24 +107,39 @@ impl MeasuredSpectrum {
         if let Some(superposition) = &self.superposition {
             text.push_str(&told(superposition));
         }
-        let _ = writeln!(text, "{:>14}{:>14}   95 % intervals", "g, Pa", "τ, s");
-        let intervals = fit.modulus_intervals.iter().zip(&fit.relaxation_time_intervals);
-        for (mode, (modulus, time)) in fit.spectrum.modes().iter().zip(intervals) {
-            let (modulus, time) = (interval(*modulus), interval(*time));
-            let _ = writeln!(text, "{:>14.6e}{:>14.6e}   {modulus}  {time}", mode.modulus, mode.relaxation_time);
+        if let Some(creep) = &fit.retardation {
+            text.push_str(&told_of_creep(creep));
+            let _ = writeln!(text, "{:>14}{:>14}   relaxation, converted exactly", "g, Pa", "τ, s");
+            for mode in fit.spectrum.modes() {
+                let _ = writeln!(text, "{:>14.6e}{:>14.6e}", mode.modulus, mode.relaxation_time);
+            }
+            if 0.0 < fit.spectrum.equilibrium_modulus() {
+                let _ = writeln!(text, "{:>14.6e}{:>14}", fit.spectrum.equilibrium_modulus(), "∞");
+            }
+        } else {
+            let _ = writeln!(text, "{:>14}{:>14}   95 % intervals", "g, Pa", "τ, s");
+            for (mode, [modulus, time]) in fit.spectrum.modes().iter().zip(self.intervals()) {
+                let (modulus, time) = (interval(modulus), interval(time));
+                let _ = writeln!(text, "{:>14.6e}{:>14.6e}   {modulus}  {time}", mode.modulus, mode.relaxation_time);
+            }
+            if !fit.spectrum.is_liquid() {
+                let modulus = fit.spectrum.equilibrium_modulus();
+                let _ = writeln!(text, "{modulus:>14.6e}{:>14}   {}", "∞", interval(fit.equilibrium_interval));
+            }
         }
-        if let Some(found) = fit.equilibrium_interval {
-            let modulus = fit.spectrum.equilibrium_modulus();
-            let _ = writeln!(text, "{modulus:>14.6e}{:>14}   {}", "∞", interval(Some(found)));
-        }
-        let count = fit.spectrum.modes().len();
+        let fitted = fit.retardation.as_ref().map(|creep| creep.spectrum.modes().len());
+        let count = fitted.unwrap_or(fit.spectrum.modes().len());
         let _ = writeln!(
             text,
-            "\n{count} mode{}, RMS of model/measured − 1: {:.2} %, search: {}",
+            "\n{count} {}mode{}, RMS of model/measured − 1: {:.2} %, search: {}",
+            if fitted.is_some() { "retardation " } else { "" },
             if count == 1 { "" } else { "s" },
             100.0 * fit.relative_error,
             fit.outcome.reason()
         );
+        if self.interrupted {
+            text.push_str("interrupted: the best until then\n");
+        }
         if self.is_at_most {
             text.push_str("These are the most modes that were tried; --modes asks for more.\n");
         }
@@ -137,16 +177,25 @@ impl MeasuredSpectrum {
             ("spectrum.svg", figure::drawn(table, self)),
         ];
         if let Ok(found) = &self.continuous {
-            let rows = found.relaxation_times.iter().zip(&found.spectrum).zip(&found.band);
+            let rows = found.times.iter().zip(&found.spectrum).zip(&found.band);
             let lines = rows.map(|((time, height), [low, high])| format!("{time:?},{height:?},{low:?},{high:?}\n"));
-            files.push((
-                "continuous.csv",
-                lines.fold("relaxation_time [s],H [Pa],low,high\n".to_owned(), |t, l| t + &l),
-            ));
+            let header = match self.response {
+                Response::Creep => "retardation_time [s],L [1/Pa],low,high\n",
+                _ => "relaxation_time [s],H [Pa],low,high\n",
+            };
+            files.push(("continuous.csv", lines.fold(header.to_owned(), |t, l| t + &l)));
         }
         if let Some(superposition) = &self.superposition {
-            let lines = superposition.shifts.iter().map(|[t, shift]| format!("{t:?},{shift:?}\n"));
-            files.push(("shifts.csv", lines.fold("temperature [K],ln a\n".to_owned(), |text, line| text + &line)));
+            let vertical = superposition.vertical.as_ref();
+            let lines = superposition.shifts.iter().enumerate().map(|(k, [t, shift])| {
+                let across = vertical.map_or_else(String::new, |b| format!(",{:?}", b[k]));
+                format!("{t:?},{shift:?}{across}\n")
+            });
+            let header = if vertical.is_some() { "temperature [K],ln a,ln b\n" } else { "temperature [K],ln a\n" };
+            files.push(("shifts.csv", lines.fold(header.to_owned(), |text, line| text + &line)));
+        }
+        if let Some(creep) = &self.fit.retardation {
+            files.push(("retardation.csv", retardation_rows(creep)));
         }
         files.extend(cards.iter().map(|(name, text)| (name.as_str(), text.clone())));
         Written::of(folder, files)
@@ -154,9 +203,7 @@ impl MeasuredSpectrum {
 
     fn modes(&self) -> String {
         let mut text = String::from("modulus [Pa],relaxation_time [s],modulus_low,modulus_high,time_low,time_high\n");
-        let intervals = self.fit.modulus_intervals.iter().zip(&self.fit.relaxation_time_intervals);
-        for (mode, (modulus, time)) in self.fit.spectrum.modes().iter().zip(intervals) {
-            let ends = |found: &Option<[f64; 2]>| found.map_or_else(|| ",".to_owned(), |[a, b]| format!("{a:?},{b:?}"));
+        for (mode, [modulus, time]) in self.fit.spectrum.modes().iter().zip(self.intervals()) {
             let _ = writeln!(text, "{:?},{:?},{},{}", mode.modulus, mode.relaxation_time, ends(modulus), ends(time));
         }
         text
@@ -167,6 +214,7 @@ impl MeasuredSpectrum {
         let mut text = String::from(match self.response {
             Response::Oscillation => "temperature [K],angular_frequency [rad/s],G' [Pa],G'' [Pa],model G',model G''\n",
             Response::Relaxation => "temperature [K],time [s],G [Pa],model G\n",
+            Response::Creep => "temperature [K],time [s],J [1/Pa],model J\n",
         });
         for shifted in &self.rows {
             let temperature = shifted.temperature.map_or_else(String::new, |t| format!("{t:?}"));
@@ -176,11 +224,74 @@ impl MeasuredSpectrum {
                 Response::Oscillation => {
                     writeln!(text, "{temperature},{at:?},{first:?},{second:?},{model:?},{other:?}")
                 }
-                Response::Relaxation => writeln!(text, "{temperature},{at:?},{first:?},{model:?}"),
+                Response::Relaxation | Response::Creep => writeln!(text, "{temperature},{at:?},{first:?},{model:?}"),
             };
         }
         text
     }
+}
+
+/// Both ends, as fields of a row.
+fn ends(found: Option<[f64; 2]>) -> String {
+    found.map_or_else(|| ",".to_owned(), |[a, b]| format!("{a:?},{b:?}"))
+}
+
+/// The fitted retardation spectrum, as rows: the glassy compliance at time 0, the flow at infinite time.
+fn retardation_rows(creep: &RetardationFit) -> String {
+    let mut text = String::from("part,size,retardation_time [s],low,high,time_low,time_high\n");
+    let spectrum = &creep.spectrum;
+    let _ = writeln!(text, "J_g [1/Pa],{:?},,{},,", spectrum.glassy_compliance(), ends(creep.glassy_interval));
+    let intervals = creep.compliance_intervals.iter().zip(&creep.retardation_time_intervals);
+    for (mode, (compliance, time)) in spectrum.modes().iter().zip(intervals) {
+        let (size, at) = (mode.compliance, mode.retardation_time);
+        let _ = writeln!(text, "J [1/Pa],{size:?},{at:?},{},{}", ends(*compliance), ends(*time));
+    }
+    if 0.0 < spectrum.fluidity() {
+        let _ = writeln!(text, "1/η₀ [1/(Pa s)],{:?},,{},,", spectrum.fluidity(), ends(creep.fluidity_interval));
+    }
+    text
+}
+
+fn retardation(creep: &RetardationFit) -> Value {
+    let intervals = creep.compliance_intervals.iter().zip(&creep.retardation_time_intervals);
+    let mode = |(mode, (compliance, time)): (&RetardationMode, (&Option<[f64; 2]>, &Option<[f64; 2]>))| {
+        json!({
+            "compliance": mode.compliance,
+            "compliance_interval": compliance,
+            "retardation_time": mode.retardation_time,
+            "retardation_time_interval": time,
+        })
+    };
+    json!({
+        "modes": creep.spectrum.modes().iter().zip(intervals).map(mode).collect::<Vec<_>>(),
+        "glassy_compliance": creep.spectrum.glassy_compliance(),
+        "glassy_interval": creep.glassy_interval,
+        "fluidity": creep.spectrum.fluidity(),
+        "fluidity_interval": creep.fluidity_interval,
+    })
+}
+
+/// The retardation spectrum in words.
+fn told_of_creep(creep: &RetardationFit) -> String {
+    let spectrum = &creep.spectrum;
+    let mut text = format!("{:>14}{:>14}   95 % intervals\n", "J, 1/Pa", "λ, s");
+    let glassy = interval(creep.glassy_interval);
+    let _ = writeln!(text, "{:>14.6e}{:>14}   {glassy}", spectrum.glassy_compliance(), "J_g");
+    let intervals = creep.compliance_intervals.iter().zip(&creep.retardation_time_intervals);
+    for (mode, (compliance, time)) in spectrum.modes().iter().zip(intervals) {
+        let (compliance, time) = (interval(*compliance), interval(*time));
+        let _ = writeln!(text, "{:>14.6e}{:>14.6e}   {compliance}  {time}", mode.compliance, mode.retardation_time);
+    }
+    if 0.0 < spectrum.fluidity() {
+        let viscosity = spectrum.fluidity().recip();
+        let within = creep.fluidity_interval.map(|[low, high]| [high.recip(), low.recip()]);
+        let _ = writeln!(text, "η₀ = {viscosity:.6e} Pa s   {}", interval(within));
+    }
+    if creep.glassy_interval.is_none() {
+        text.push_str("The data do not determine J_g: nor do they the shortest relaxation mode, and G₀ of a card.\n");
+    }
+    text.push('\n');
+    text
 }
 
 fn interval(found: Option<[f64; 2]>) -> String {
@@ -188,7 +299,10 @@ fn interval(found: Option<[f64; 2]>) -> String {
 }
 
 fn shifts(found: &Superposition) -> Value {
-    let rows = found.shifts.iter().map(|[t, shift]| json!({ "temperature": t, "ln_a": shift }));
+    let rows = found.shifts.iter().enumerate().map(|(k, [t, shift])| {
+        let across = found.vertical.as_ref().map(|b| b[k]);
+        json!({ "temperature": t, "ln_a": shift, "ln_b": across })
+    });
     let arrhenius = match &found.arrhenius {
         Ok(fit) => json!({
             "activation_energy": fit.law.activation_energy(),
@@ -218,8 +332,9 @@ fn shifts(found: &Superposition) -> Value {
 /// Shifts in words.
 fn told(found: &Superposition) -> String {
     let mut text = format!("shifted to {:.1} °C\n", found.reference_temperature - ICE);
-    for [temperature, shift] in &found.shifts {
-        let _ = writeln!(text, "{:>10.1} °C   ln aₜ = {shift:.4}", temperature - ICE);
+    for (k, [temperature, shift]) in found.shifts.iter().enumerate() {
+        let across = found.vertical.as_ref().map_or_else(String::new, |b| format!("   ln bₜ = {:.4}", b[k]));
+        let _ = writeln!(text, "{:>10.1} °C   ln aₜ = {shift:.4}{across}", temperature - ICE);
     }
     match &found.arrhenius {
         Ok(fit) => {

@@ -2,9 +2,13 @@
 
 use core::f64::consts::TAU;
 use core::fmt::Write as _;
+use core::ops::ControlFlow;
 
 use piola_measured::fitting::Program;
-use piola_measured::spectra::{MeasuredSpectrum, Response, SpectrumRequest, SpectrumTable, prony, spectrum};
+use piola_measured::spectra::{
+    MeasuredSpectrum, RelaxationMode, RelaxationSpectrum, Response, RetardationSpectrum, SpectrumRequest,
+    SpectrumTable, prony, spectrum, spectrum_until,
+};
 use piola_testkit::{Tol, assert_close};
 
 use crate::newtonian::written;
@@ -37,6 +41,11 @@ fn melt(temperatures: &[f64], points: u32) -> String {
         }
     }
     text
+}
+
+fn material(equilibrium: f64) -> RelaxationSpectrum {
+    let modes = MODES.map(|[modulus, relaxation_time]| RelaxationMode { modulus, relaxation_time });
+    RelaxationSpectrum::new(modes.to_vec(), equilibrium).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn found(text: &str, request: &SpectrumRequest) -> MeasuredSpectrum {
@@ -82,7 +91,9 @@ fn relaxation_of_a_solid_gives_back_its_modes_and_its_equilibrium() -> Result<()
     let expected: Vec<f64> = MODES.iter().flat_map(|[g, time]| [1e-5 * g, *time]).collect();
     assert_close("g, τ", &modes(&found), &expected, SEARCHED);
     assert_close("G₀", &[found.fit.spectrum.glassy_modulus()], &[2.0 + 1.23], SEARCHED);
-    assert!(found.continuous.is_err() && found.table(&table).contains("no continuous spectrum"));
+    // A smooth spectrum, where three lines were: its rest is near.
+    let resting = found.continuous.as_ref().map_err(Clone::clone)?.equilibrium_modulus.ok_or("a solid")?;
+    assert_close("Gₑ", &[resting], &[2.0], Tol::stated(0.02, "three lines are no smooth spectrum"));
     // The shares of a Prony series: g/G₀.
     let card = prony(Program::Abaqus, &found.fit.spectrum)?;
     let first: Vec<f64> = card.lines().nth(2).unwrap_or_default().split(", ").flat_map(str::parse).collect();
@@ -136,6 +147,19 @@ fn mistakes_of_tables_of_moduli_are_named_with_their_line() {
         ("# temperature: warm\nomega [rad/s],G' [Pa],G'' [Pa]\n1,2,3\n", "the temperature is `warm`"),
         ("angular frequency [Hz],G' [Pa],G'' [Pa]\n1,2,3\n", "`angular frequency [Hz]` is in Hz"),
         ("omega [rad/s],E' [Pa],E'' [Pa]\n1,2,3\n", "no column is a modulus"),
+        (
+            "omega [rad/s],G' [Pa],storage modulus [kPa],G'' [Pa]\n1,2,3,4\n",
+            "melt.csv:1: 2 columns are the storage modulus: `G' [Pa]`, `storage modulus [kPa]`; valid: one such column",
+        ),
+        ("time [s],t [s],J [1/Pa]\n1,1,2\n", "2 columns are the time: `time [s]`, `t [s]`"),
+        ("time [s],J [1/Pa],G [Pa]\n1,1,2\n", "columns of relaxation and of creep"),
+        ("time [s],J(t) [Pa]\n1,1\n", "`Pa` is another unit; valid: 1/Pa"),
+        ("time [s],J(t) [1/Pa]\n1,-1\n", "melt.csv:2: `J(t) [1/Pa]` is `-1`"),
+        (
+            "temperature [°C],omega [rad/s],G' [Pa],G'' [Pa]\n20,1,1,1\n20.4,1,1,1\n20.8,1,1,1\n21.2,1,1,1\n21.6,1,1,1\n\
+             22,1,1,1\n22.4,1,1,1\n22.8,1,1,1\n23.2,1,1,1\n",
+            "without a gap; valid: isotherms",
+        ),
         ("stretch,stress\n1,2\n", "melt.csv"),
     ] {
         let found = SpectrumTable::parse("melt.csv", text).map_or_else(|error| error.to_string(), |_| String::new());
@@ -164,5 +188,127 @@ fn files_of_a_measured_melt_make_one_curve() -> Result<(), Box<dyn std::error::E
     assert!(found.fit.relative_error < 0.05, "{}", found.fit.relative_error);
     let viscosity = found.fit.spectrum.zero_shear_viscosity().ok_or("a liquid")?;
     assert!((3e5..4e5).contains(&viscosity), "{viscosity}");
+    Ok(())
+}
+
+#[test]
+fn creep_gives_back_the_modes_of_a_liquid_and_of_a_solid() -> Result<(), Box<dyn std::error::Error>> {
+    for equilibrium in [0.0, 500.0] {
+        let material = material(equilibrium);
+        let creep = RetardationSpectrum::of(&material);
+        let mut text = String::from("Step time (min)\tCreep compliance (1/kPa)\n");
+        for k in 0..57 {
+            let t = 10.0_f64.powf(f64::from(k) / 12.0 - 3.2);
+            writeln!(text, "{:?}\t{:?}", t / 60.0, 1e3 * creep.compliance(t))?;
+        }
+        let mut request = SpectrumRequest::default();
+        (request.modes, request.equilibrium) = (Some(creep.modes().len()), 0.0 < equilibrium);
+        let table = SpectrumTable::parse("gel.csv", &text)?;
+        let found = spectrum(&table, &request)?;
+        assert_eq!(found.response, Response::Creep);
+        assert_close("g, τ", &modes(&found), MODES.as_flattened(), SEARCHED);
+        assert_close("Gₑ", &[found.fit.spectrum.equilibrium_modulus()], &[equilibrium], SEARCHED);
+        let told = found.table(&table);
+        assert!(told.contains("rows of J(t)") && told.contains("relaxation, converted exactly"), "{told}");
+        assert_eq!(told.contains("η₀ = 1.700000e4 Pa s"), equilibrium <= 0.0, "{told}");
+        // The cards are those of the relaxation spectrum.
+        let card = prony(Program::Abaqus, &found.fit.spectrum)?;
+        let first: Vec<f64> = card.lines().nth(2).unwrap_or_default().split(", ").flat_map(str::parse).collect();
+        assert_close("Abaqus", &first, &[1e5 / (1.23e5 + equilibrium), 0.0, 0.01], SEARCHED);
+        let files = ["summary.json", "retardation.csv", "continuous.csv", "response.csv", "spectrum.svg", "modes.csv"];
+        let [json, retardation, continuous, response, svg, modes] =
+            written("creep", files, |folder| found.write(folder, &table, &[]));
+        assert!(json.contains("\"response\": \"creep\"") && json.contains("\"retardation_time\""), "{json}");
+        assert_eq!((retardation.lines().count(), modes.lines().count(), response.lines().count()), (5, 4, 58));
+        assert!(continuous.starts_with("retardation_time [s],L [1/Pa]") && svg.contains("J (1/Pa)"));
+    }
+    Ok(())
+}
+
+#[test]
+fn creep_at_several_temperatures_is_shifted_by_the_law_that_made_it() -> Result<(), Box<dyn std::error::Error>> {
+    let creep = RetardationSpectrum::of(&material(0.0));
+    let mut text = String::from("temperature [°C],time [s],J [1/Pa]\n");
+    for temperature in [150.0, 170.0, 190.0] {
+        for k in 0..33 {
+            let t = 10.0_f64.powf(0.1 * f64::from(k) - 2.0);
+            writeln!(text, "{temperature},{t:?},{:?}", creep.compliance(t / shift(temperature + 273.15)))?;
+        }
+    }
+    let mut request = SpectrumRequest::default();
+    request.modes = Some(2);
+    let found = found(&text, &request);
+    let superposition = found.superposition.ok_or("no shifts")?;
+    let expected: Vec<f64> = superposition.shifts.iter().map(|[t, _]| shift(*t).ln()).collect();
+    let shifts: Vec<f64> = superposition.shifts.iter().map(|[_, shift]| *shift).collect();
+    assert_close("ln a", &shifts, &expected, Tol::stated(0.01, "curves are linear in logarithms between their points"));
+    Ok(())
+}
+
+#[test]
+fn vertical_shifts_equal_those_that_made_the_moduli() -> Result<(), Box<dyn std::error::Error>> {
+    let mut text = String::from("temperature [°C],angular frequency [rad/s],G' [Pa],G'' [Pa]\n");
+    for temperature in [150.0, 170.0, 190.0] {
+        for k in 0..33 {
+            let w = 10.0_f64.powf(0.125 * f64::from(k) - 1.0);
+            // Rubber elasticity: b = θ₀/θ.
+            let b = 443.15 / (temperature + 273.15);
+            let [storage, loss] = moduli(w * shift(temperature + 273.15)).map(|g| g / b);
+            writeln!(text, "{temperature},{w:?},{storage:?},{loss:?}")?;
+        }
+    }
+    let mut request = three().at_temperature("170 °C")?;
+    request.vertical = true;
+    let table = SpectrumTable::parse("melt.csv", &text)?;
+    let found = spectrum(&table, &request)?;
+    let superposition = found.superposition.as_ref().ok_or("no shifts")?;
+    let across = superposition.vertical.as_ref().ok_or("no vertical shifts")?;
+    let expected: Vec<f64> = superposition.shifts.iter().map(|[t, _]| (443.15 / t).ln()).collect();
+    assert_close("ln b", across, &expected, Tol::stated(0.05, "the largest is 0.05; curves are linear between points"));
+    assert!(found.fit.relative_error < 0.01 && found.table(&table).contains("ln bₜ = "), "{}", found.table(&table));
+    let [shifts] = written("vertical", ["shifts.csv"], |folder| found.write(folder, &table, &[]));
+    assert!(shifts.starts_with("temperature [K],ln a,ln b\n"), "{shifts}");
+    // Without them the curves do not meet.
+    request.vertical = false;
+    assert!(0.01 < spectrum(&table, &request)?.fit.relative_error);
+    Ok(())
+}
+
+#[test]
+fn wandering_temperatures_repeats_and_sweeps_are_told() -> Result<(), Box<dyn std::error::Error>> {
+    let head = "temperature [°C],omega [rad/s],G' [Pa],G'' [Pa]\n";
+    let wandering = format!("{head}150.2,1,1,1\n149.8,2,2,2\n150.3,3,3,3\n170,1,1,1\n");
+    let table = SpectrumTable::parse("melt.csv", &wandering)?;
+    let temperatures: Vec<f64> = table.isotherms.iter().filter_map(|isotherm| isotherm.temperature).collect();
+    assert_close("θ", &temperatures, &[150.1 + 273.15, 170.0 + 273.15], Tol::ulps(4.0));
+    let expected = "temperatures from 149.80 to 150.30 °C are one isotherm at their mean, 150.10 °C";
+    assert_eq!(table.notes, [expected]);
+    let repeated = format!("{head}150,1,1,1\n150,1,1.02,1\n150,2,2,2\n");
+    let table = SpectrumTable::parse("melt.csv", &repeated)?;
+    // Two numbers, ln 1.02 apart: s = 0.0198/√2.
+    let expected =
+        "at 150.0 °C 1 frequencies are measured more than once, and all rows count: repeats of G′ scatter by 1.40 %";
+    assert_eq!(table.notes, [expected]);
+    let swept = "omega [rad/s],G' [Pa],G'' [Pa]\n1,1,1\n2,2,2\n4,4,4\n4,3.6,4\n2,1.8,2\n1,0.9,1\n";
+    let table = SpectrumTable::parse("melt.csv", swept)?;
+    let expected = "frequencies rise and fall: both sweeps are fitted together; falling G′ are 0.900 times rising ones in the mean";
+    assert_eq!(table.notes, [expected]);
+    assert_eq!(table.isotherms[0].rows.len(), 6);
+    Ok(())
+}
+
+#[test]
+fn stopped_spectrum_is_written_with_what_was_found() -> Result<(), Box<dyn std::error::Error>> {
+    let table = SpectrumTable::parse("melt.csv", &melt(&[170.0], 29))?;
+    let mut calls = 0;
+    let mut watch = |fraction: f64| {
+        assert!((0.0..=1.0).contains(&fraction));
+        calls += 1;
+        if calls < 50 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    };
+    let found = spectrum_until(&table, &SpectrumRequest::default(), &mut watch)?;
+    assert!(found.interrupted && !found.is_settled());
+    assert!(found.table(&table).contains("interrupted: the best until then"));
+    assert!(found.summary(&table).contains("\"interrupted\": true"));
     Ok(())
 }

@@ -31,3 +31,17 @@ fn spectra_without_modes_and_solids_as_fluids_are_refused() {
         "`equilibrium modulus`, entry 0: 2e0 violates Gₑ = 0 for a fluid"
     );
 }
+
+#[test]
+fn creep_that_is_not_positive_is_refused_by_name() {
+    let refused = |times: &[f64], compliances: &[f64]| {
+        let data = SpectrumData::Creep { times, compliances };
+        fit_spectrum(data, SpectrumOptions::default()).expect_err("refused").to_string()
+    };
+    assert_eq!(refused(&[1.0, 2.0], &[1.0, -1.0]), "`creep compliance`, entry 1: -1e0 violates 0 < J");
+    assert_eq!(refused(&[1.0, f64::INFINITY], &[1.0, 1.0]), "`time`, entry 1: inf is not finite");
+    assert_eq!(
+        refused(&[1.0, 2.0], &[1.0, 2.0]),
+        "a spectrum with number of modes = 0 needs at least 4 measured numbers; found 2"
+    );
+}

@@ -1,7 +1,9 @@
 //! Shifts and their laws found again.
 
 use piola_fluids::{Arrhenius, TemperatureShift, WilliamsLandelFerry};
-use piola_spectra::{IsothermalCurve, fit_arrhenius, fit_williams_landel_ferry, horizontal_shifts};
+use piola_spectra::{
+    IsothermalCurve, fit_arrhenius, fit_williams_landel_ferry, horizontal_shifts, shifts_along_both_axes,
+};
 use piola_testkit::{Tol, assert_close, assert_each_close};
 
 use super::spectrum;
@@ -49,4 +51,72 @@ fn falling_frequencies_curves_apart_and_missing_references_are_refused() {
     assert_eq!(refused, "curves 0 and 1 have too few moduli in common to be shifted over each other");
     let refused = horizontal_shifts(&[], 0).expect_err("no curve").to_string();
     assert_eq!(refused, "`reference`, entry 0: 0e0 violates reference < number of curves");
+}
+
+/// ln aₜ and ln bₜ found from G′ and G″ of four temperatures with relative normal noise, and the exact ones.
+fn both_axes(noise: f64, seed: u64) -> [Vec<f64>; 4] {
+    let melt = spectrum(&[(1e5, 0.001), (3e4, 0.01), (1e4, 0.1), (2e3, 1.0), (300.0, 10.0)], 0.0);
+    let temperatures = [403.0, 423.0, 443.0, 463.0];
+    let wlf = WilliamsLandelFerry::new(6.3, 105.0, 423.0).expect("positive");
+    let horizontal = temperatures.map(|t| wlf.logarithm(t).expect("above the least"));
+    // Rubber elasticity: b = θ₀/θ.
+    let vertical = temperatures.map(|t| (423.0_f64 / t).ln());
+    let frequencies: Vec<f64> = (0..31).map(|k| 10.0_f64.powf(0.1 * f64::from(k) - 1.0)).collect();
+    let mut normal = super::Normal::new(seed);
+    let mut measured = |exact: f64| exact * (1.0 + noise * normal.next());
+    let mut moduli = Vec::new();
+    for (a, b) in horizontal.iter().zip(vertical) {
+        let at = |w: &f64| w * a.exp();
+        let storage = frequencies.iter().map(|w| measured(melt.storage_modulus(at(w)) / b.exp())).collect::<Vec<_>>();
+        let loss = frequencies.iter().map(|w| measured(melt.loss_modulus(at(w)) / b.exp())).collect::<Vec<_>>();
+        moduli.push([storage, loss]);
+    }
+    let curve = |moduli| IsothermalCurve { angular_frequencies: &frequencies, moduli };
+    let curves: Vec<_> = moduli.iter().map(|[storage, loss]| [curve(storage), curve(loss)]).collect();
+    let curves: Vec<&[IsothermalCurve<'_>]> = curves.iter().map(|pair| pair.as_slice()).collect();
+    let found = shifts_along_both_axes(&curves, 1).expect("shifts");
+    let [along, across] =
+        [found.iter().map(|s| s.ln_horizontal).collect(), found.iter().map(|s| s.ln_vertical).collect()];
+    [along, across, horizontal.to_vec(), vertical.to_vec()]
+}
+
+#[test]
+fn shifts_along_both_axes_equal_those_that_made_the_curves() {
+    let [along, across, horizontal, vertical] = both_axes(0.0, 0);
+    assert_eq!((along[1].to_bits(), across[1].to_bits()), (0, 0));
+    let tol = Tol::order(0.1, 2).times(0.5);
+    assert_close("ln aₜ", &along, &horizontal, tol);
+    // The largest is 0.1.
+    assert_close("ln bₜ", &across, &vertical, tol.times(10.0));
+}
+
+#[test]
+fn vertical_shifts_of_noisy_curves_have_no_bias_beyond_their_scatter() {
+    let (mut sums, mut squares) = ([0.0; 4], [0.0; 4]);
+    for seed in 1..=20 {
+        let [_, across, _, vertical] = both_axes(0.02, seed);
+        for k in 0..4 {
+            let error = across[k] - vertical[k];
+            sums[k] += error;
+            squares[k] += error * error;
+        }
+    }
+    for k in [0, 2, 3] {
+        let (mean, scatter) = (sums[k] / 20.0, (squares[k] / 20.0_f64).sqrt());
+        // 2 % noise of some forty overlapping numbers, whose slopes differ by a half or less.
+        assert!(scatter < 0.05, "{k}: scatter {scatter}");
+        assert!(mean.abs() < 3.0 * scatter / 20.0_f64.sqrt(), "{k}: mean error {mean}, scatter {scatter}");
+    }
+}
+
+#[test]
+fn straight_lines_have_no_vertical_shift() {
+    let frequencies = [1.0, 2.0, 4.0, 8.0, 16.0];
+    let moduli = frequencies.map(|w: f64| 3.0 * w.sqrt());
+    let curve = [IsothermalCurve { angular_frequencies: &frequencies, moduli: &moduli }];
+    let refused = shifts_along_both_axes(&[&curve, &curve], 0).expect_err("straight").to_string();
+    assert!(refused.starts_with("curves 0 and 1 are straight lines in logarithms"), "{refused}");
+    let two = [curve[0], curve[0]];
+    let refused = shifts_along_both_axes(&[&curve, &two], 0).expect_err("one and two").to_string();
+    assert_eq!(refused, "`curves of a temperature` has length 2; length 1 is needed");
 }
