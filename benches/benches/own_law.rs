@@ -4,6 +4,9 @@
 //! |---|---|
 //! | `invariants`, `stretches`, `general` | the law by its energy of invariants, of principal stretches, of Green's strain |
 //! | `built_in` | the law of `piola-solids`, right after it |
+//! | `per_point` | the energy of invariants with the parameters of each point in blocks of lanes |
+//! | `alone`, `lanes` | a law with history, its states as structures of arrays: point by point, in lanes |
+//! | `advance` | one implicit step with P and its consistent tangent |
 //! | `first_piola`, `first_piola_and_tangent` | P; P and ∂P/∂F |
 //! | `1`, `1k` | one call; a thousand points in blocks of lanes, in cache |
 
@@ -15,7 +18,14 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
 use piola_batch::{Gradients, LaneBlocks};
 use piola_benches::continuum::ordinary_deformations;
-use piola_solids::{Hyperelastic, batch};
+use piola_continuum::stress::tangents::FirstPiolaTangent;
+use piola_continuum::{DeformationGradient, FirstPiola};
+use piola_inelastic::{Evolution, ReeseGovindjee, StepControl, advance_components, advance_in_lanes};
+use piola_laws::Excesses;
+use piola_laws::per_point::{self, Bound, EnergyOfParameters};
+use piola_numerics::Real;
+use piola_solids::{Hyperelastic, NeoHookeanCiarlet, batch};
+use piola_tensor::FourthOrder;
 
 #[path = "../../crates/laws/tests/it/zoo.rs"]
 mod zoo;
@@ -31,6 +41,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     group.sample_size(20).nresamples(2000);
     group.warm_up_time(Duration::from_millis(50)).measurement_time(Duration::from_millis(200));
     zoo::each(&mut Measured(&mut group))?;
+    per_point(&mut group, "neo_hookean", GradedNeoHookean, [2.0, 3.0])?;
+    per_point(&mut group, "mooney_rivlin", GradedMooneyRivlin, [0.5, 0.25, 1.0])?;
+    states(&mut group)?;
     group.finish();
     criterion.final_summary();
     Ok(())
@@ -63,12 +76,7 @@ impl Measured<'_, '_> {
         group.bench_function(format!("{name}/first_piola_and_tangent/1"), |b| {
             b.iter(|| black_box(law).first_piola_and_tangent(black_box(&f)));
         });
-        let mut gradients = vec![[[0.0; BLOCK]; 9]; COUNT / BLOCK];
-        for (point, f) in ordinary_deformations(COUNT).iter().enumerate() {
-            for (k, component) in gradients[point / BLOCK].iter_mut().enumerate() {
-                component[point % BLOCK] = f.matrix()[(k / 3, k % 3)];
-            }
-        }
+        let gradients = gradients();
         let mut stresses = vec![[[0.0; BLOCK]; 9]; COUNT / BLOCK];
         let mut tangents = vec![[[0.0; BLOCK]; 45]; COUNT / BLOCK];
         let input = Gradients(LaneBlocks::new(&gradients, COUNT)?);
@@ -87,4 +95,108 @@ impl Measured<'_, '_> {
         });
         Ok(())
     }
+}
+
+/// F of a thousand points in blocks of lanes.
+fn gradients() -> Vec<[[f64; BLOCK]; 9]> {
+    let mut gradients = vec![[[0.0; BLOCK]; 9]; COUNT / BLOCK];
+    for (point, f) in ordinary_deformations(COUNT).iter().enumerate() {
+        for (k, component) in gradients[point / BLOCK].iter_mut().enumerate() {
+            component[point % BLOCK] = f.matrix()[(k / 3, k % 3)];
+        }
+    }
+    gradients
+}
+
+/// W = ½ μ (I₁ − 3 − 2 ln J) + ½ λ (ln J)², μ and λ of each point.
+#[derive(Clone, Copy)]
+struct GradedNeoHookean;
+
+impl EnergyOfParameters<2> for GradedNeoHookean {
+    const PARAMETERS: [(&'static str, Bound); 2] =
+        [("shear_modulus", Bound::Positive), ("first_lame_parameter", Bound::Finite)];
+    const SECOND: bool = false;
+
+    #[inline(always)]
+    fn energy<T: Real>(&self, &[mu, lambda]: &[T; 2], at: &impl Excesses<T>) -> T {
+        let volume = at.ln_jacobian();
+        T::lit(0.5) * (mu * at.first_excess() + lambda * volume * volume)
+    }
+}
+
+/// W = C₁₀ (I₁ − 3 − 2 ln J) + C₀₁ (I₂ − 3 − 4 ln J) + c (J² − 1 − 2 ln J), all three of each point.
+#[derive(Clone, Copy)]
+struct GradedMooneyRivlin;
+
+impl EnergyOfParameters<3> for GradedMooneyRivlin {
+    const PARAMETERS: [(&'static str, Bound); 3] =
+        [("c10", Bound::Positive), ("c01", Bound::NotNegative), ("square_coefficient", Bound::Positive)];
+
+    #[inline(always)]
+    fn energy<T: Real>(&self, &[c10, c01, c]: &[T; 3], at: &impl Excesses<T>) -> T {
+        let change = at.volume_change();
+        c10 * at.first_excess() + c01 * at.second_excess() + c * (change * change + T::lit(2.0) * at.volume_excess())
+    }
+}
+
+fn per_point<E: EnergyOfParameters<N>, const N: usize>(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    name: &str,
+    energy: E,
+    mean: [f64; N],
+) -> Result<(), Box<dyn Error>> {
+    let gradients = gradients();
+    let graded = |point: usize| mean.map(|mean| [0; BLOCK].map(|_: usize| mean * (1.0 + 1e-3 * point as f64)));
+    let parameters: Vec<[[f64; BLOCK]; N]> = (0..COUNT / BLOCK).map(graded).collect();
+    let mut stresses = vec![[[0.0; BLOCK]; 9]; COUNT / BLOCK];
+    let mut tangents = vec![[[0.0; BLOCK]; 45]; COUNT / BLOCK];
+    let input = Gradients(LaneBlocks::new(&gradients, COUNT)?);
+    let parameters = LaneBlocks::new(&parameters, COUNT)?;
+    group.throughput(Throughput::Elements(COUNT as u64));
+    group.bench_function(format!("{name}/per_point/first_piola/1k"), |b| {
+        b.iter(|| {
+            let to = LaneBlocks::new_mut(&mut stresses, COUNT)?;
+            let request = per_point::first_piola(energy, black_box(parameters), to);
+            batch::evaluate(black_box(input), request).map(|report| report.points)
+        });
+    });
+    group.bench_function(format!("{name}/per_point/first_piola_and_tangent/1k"), |b| {
+        b.iter(|| {
+            let (p, a) = (LaneBlocks::new_mut(&mut stresses, COUNT)?, LaneBlocks::new_mut(&mut tangents, COUNT)?);
+            let request = per_point::first_piola_and_tangent(energy, black_box(parameters), p, a);
+            batch::evaluate(black_box(input), request).map(|report| report.points)
+        });
+    });
+    Ok(())
+}
+
+/// A step of Reese and Govindjee's law at a thousand points, which all start as they were made.
+fn states(group: &mut BenchmarkGroup<'_, WallTime>) -> Result<(), Box<dyn Error>> {
+    let (rest, spring) = (NeoHookeanCiarlet::with_constants(1.0, 5.0)?, NeoHookeanCiarlet::with_constants(2.0, 8.0)?);
+    let law = ReeseGovindjee::new(rest, spring, 0.75)?;
+    let (from, to) = (vec![DeformationGradient::identity(); COUNT], ordinary_deformations(COUNT));
+    let mut stresses = vec![FirstPiola::zero(); COUNT];
+    let mut tangents = vec![FirstPiolaTangent(FourthOrder::zero()); COUNT];
+    let control = StepControl::one_step();
+    let mut arrays: Vec<Vec<f64>> = law.initial().iter().map(|_| vec![0.0; COUNT]).collect();
+    group.throughput(Throughput::Elements(COUNT as u64));
+    for way in ["alone", "lanes"] {
+        group.bench_function(format!("reese_govindjee/{way}/advance/1k"), |b| {
+            b.iter(|| {
+                for (array, value) in arrays.iter_mut().zip(law.initial()) {
+                    array.fill(value);
+                }
+                let mut columns = arrays.iter_mut().map(Vec::as_mut_slice);
+                let mut columns: [&mut [f64]; 9] = core::array::from_fn(|_| columns.next().unwrap_or_default());
+                let path = black_box([&from[..], &to[..]]);
+                if way == "lanes" {
+                    advance_in_lanes(&law, &mut columns, path, 0.1, &mut stresses, &mut tangents)
+                } else {
+                    let step = (0.1, &control);
+                    advance_components(|_| Ok(law), &mut columns, path, step, &mut stresses, &mut tangents)
+                }
+            });
+        });
+    }
+    Ok(())
 }

@@ -279,4 +279,5 @@ def main():
     print('{\n "meta": %s,\n "cases": [\n  %s\n ]\n}' % (json.dumps(meta, indent=1).replace("\n", "\n "), lines))
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -40,6 +40,7 @@ pub use engine::refusal::Refusal;
 pub use engine::request::{Quantity, Request, Requests};
 pub use engine::scalar::BatchScalar;
 pub use engine::sources::Source;
+pub use engine::together::Together;
 pub use engine::views::{AllEntries, ColumnMajor, Components, LaneBlocks, Strided, points_of, points_of_mut};
 pub use error::{BadPoint, BatchError};
 pub use requests::*;

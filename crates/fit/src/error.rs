@@ -109,6 +109,68 @@ pub enum FitError {
         /// The name.
         name: String,
     },
+    /// A law with history has a name that is not known.
+    #[error(
+        "no law with history is called `{name}`; they are bergstrom-boyce, reese-govindjee, ogden-roxburgh, viscoplastic"
+    )]
+    UnknownHistoryModel {
+        /// The name.
+        name: String,
+    },
+    /// A law with history has no answer to a loading.
+    #[error(
+        "test `{test}`: laws with history are fitted to uniaxial, equibiaxial, planar and simple-shear tests, not to \
+         {loading} ones"
+    )]
+    NoHistoryLoading {
+        /// The test.
+        test: String,
+        /// The loading.
+        loading: &'static str,
+    },
+    /// A time of a test is not finite, or before that of the row above.
+    #[error(
+        "test `{test}`, point {index}: the time {value} s is not finite and at least {before} s, that of the row above"
+    )]
+    TimeOutOfOrder {
+        /// The test.
+        test: String,
+        /// The point, from 0.
+        index: usize,
+        /// The time, s.
+        value: f64,
+        /// The time of the row above; 0 of the first row.
+        before: f64,
+    },
+    /// A law with history cannot be followed to a row of a test.
+    #[cfg(feature = "history")]
+    #[error("test `{test}`, point {index}: {error}")]
+    NoHistory {
+        /// The test.
+        test: String,
+        /// The point, from 0.
+        index: usize,
+        /// Why.
+        error: Box<piola_inelastic::InelasticError>,
+    },
+    /// A model of one's own computes more or fewer stresses than a test has rows.
+    #[error("{quantity} has {found} entries, and {expected} are needed")]
+    WrongLength {
+        /// What the array holds.
+        quantity: &'static str,
+        /// The length needed.
+        expected: usize,
+        /// Its length.
+        found: usize,
+    },
+    /// No stretch of the free sides was found at which they carry no stress.
+    #[error("test `{test}`, point {index}: no stretch of the free sides leaves them without stress")]
+    SidesNotFound {
+        /// The test.
+        test: String,
+        /// The point, from 0.
+        index: usize,
+    },
     /// A law has no answer to a loading.
     #[error("{model} cannot be fitted to {loading} tests; it can to uniaxial, transverse, equibiaxial and planar ones")]
     NoSuchLoading {
@@ -221,6 +283,10 @@ pub enum FitError {
     #[cfg(feature = "solids")]
     #[error(transparent)]
     Solids(#[from] piola_solids::SolidsError),
+    /// A law with history refuses its parameters.
+    #[cfg(feature = "history")]
+    #[error(transparent)]
+    Inelastic(#[from] piola_inelastic::InelasticError),
     /// The fluid refuses its parameters, or has no shear rate at a stress.
     #[cfg(feature = "fluids")]
     #[error(transparent)]

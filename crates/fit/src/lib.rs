@@ -3,8 +3,12 @@
 #![forbid(unsafe_code)]
 
 mod error;
+#[cfg(feature = "solids")]
+mod estimates;
 #[cfg(feature = "fluids")]
 pub mod fluids;
+#[cfg(feature = "history")]
+pub mod history;
 mod outcome;
 mod search;
 #[cfg(feature = "solids")]

@@ -24,6 +24,13 @@ impl Range {
     /// 0 < θ.
     pub const POSITIVE: Self = Self { bounds: [0.0, f64::INFINITY], least: f64::MIN_POSITIVE };
 
+    /// Whether the bounds leave one value.
+    #[cfg(feature = "solids")]
+    pub(crate) fn is_fixed(self) -> bool {
+        let [low, high] = self.bounds;
+        high <= low
+    }
+
     /// The unbounded coordinate of a parameter.
     #[must_use]
     pub fn inward(self, value: f64) -> f64 {

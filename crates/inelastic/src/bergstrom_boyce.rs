@@ -155,6 +155,7 @@ impl<A: Hyperelastic, B: Hyperelastic> Evolution<9, 6> for BergstromBoyce<A, B> 
 }
 
 /// The stress of a law at rest beside a spring behind Fᵢ.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn parallel<T: Real, A: Hyperelastic, B: Hyperelastic>(
     equilibrium: &A,
     overstress: &B,

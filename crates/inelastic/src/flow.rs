@@ -14,6 +14,7 @@ use piola_solids::Hyperelastic;
 use piola_tensor::internal::rows::{Rows, difference, identity, product, product_transposed};
 
 /// Fᵢ of the first nine internal variables.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn inelastic<T: Real, const S: usize>(state: &[T; S]) -> Rows<T> {
     let mut rows = identity();
     for (row, three) in rows.iter_mut().zip(state.chunks(3)) {
@@ -25,6 +26,7 @@ pub(crate) fn inelastic<T: Real, const S: usize>(state: &[T; S]) -> Rows<T> {
 }
 
 /// The state with another Fᵢ.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn with_inelastic<T: Real, const S: usize>(mut state: [T; S], rows: &Rows<T>) -> [T; S] {
     for (value, entry) in state.iter_mut().zip(rows.as_flattened()) {
         *value = *entry;
@@ -38,6 +40,7 @@ pub(crate) fn virgin<const S: usize>() -> [f64; S] {
 }
 
 /// The symmetric tensor of the first six unknowns: 11, 22, 33, 12, 23, 13.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn increment<T: Real, const X: usize>(unknowns: &[T; X]) -> Symmetric<T> {
     let mut components = [T::zero(); 6];
     for (component, unknown) in components.iter_mut().zip(unknowns) {
@@ -47,27 +50,32 @@ pub(crate) fn increment<T: Real, const X: usize>(unknowns: &[T; X]) -> Symmetric
 }
 
 /// A F⁻¹.
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn divided<T: Real>(a: &Rows<T>, f: &Rows<T>) -> Rows<T> {
     product(*a, inverse_and_determinant(*f).0)
 }
 
 /// exp Δ.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn exponential<T: Real>(increment: &Symmetric<T>) -> Rows<T> {
     piola_continuum::rates::exponential_rows(increment.rows())
 }
 
 /// Fₑ = F Fᵢ,ₙ⁻¹ exp(−Δ).
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn elastic<T: Real>(f: &Rows<T>, inelastic: &Rows<T>, increment: &Symmetric<T>) -> Rows<T> {
     product(divided(f, inelastic), exponential(&(-*increment)))
 }
 
 /// Mandel's stress M = Cₑ Sₑ of an isotropic spring, which is symmetric.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn mandel<T: Real, L: Hyperelastic>(spring: &L, elastic: &Rows<T>) -> Symmetric<T> {
     let stress = spring.second_piola(&DeformationGradient::trusted(*elastic)).0;
     Symmetric::symmetric_part(product(right_cauchy_green(*elastic).rows(), stress.rows()))
 }
 
 /// P = Pₑ Fᵢ⁻ᵀ of a spring behind Fᵢ.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn first_piola<T: Real, L: Hyperelastic>(spring: &L, f: &Rows<T>, inelastic: &Rows<T>) -> Rows<T> {
     let (inverse, _) = inverse_and_determinant(*inelastic);
     let stress = spring.first_piola(&DeformationGradient::trusted(product(*f, inverse)));
@@ -116,11 +124,13 @@ pub(crate) fn dissipated<L: Hyperelastic, const S: usize>(
 }
 
 /// M : M of a deviator, never zero: of nothing at all a part of `scale`² that nothing feels.
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn square<T: Real>(deviator: &Symmetric<T>, scale: f64) -> T {
     deviator.double_contraction(deviator) + T::lit(1e-40 * scale * scale)
 }
 
 /// tr(Fᵢᵀ Fᵢ).
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn trace_of_square<T: Real>(inelastic: &Rows<T>) -> T {
     right_cauchy_green(*inelastic).trace()
 }

@@ -130,9 +130,9 @@ pub(crate) fn implicit_step<L: Evolution<S, X>, const S: usize, const X: usize>(
 }
 
 /// A residual of rounding alone: unknowns and residuals are of the size of a strain.
-const ROUNDING: f64 = 1e-15;
+pub(crate) const ROUNDING: f64 = 1e-15;
 /// A residual or step after which one more iteration leaves rounding alone.
-const NEARLY: f64 = 1e-9;
+pub(crate) const NEARLY: f64 = 1e-9;
 const SMALLEST_SHARE: f64 = 1e-4;
 
 /// P and ∂P/∂F of the deformation and the state, both with derivatives.

@@ -30,7 +30,7 @@ pub fn advance_all<L: Evolution<S, X>, const S: usize, const X: usize>(
     for (index, state) in states.iter_mut().enumerate() {
         let advanced = InelasticPoint::with_state(law, state, &from[index])
             .and_then(|mut point| point.advance(&to[index], dt, control));
-        if let Some(after) = written(index, advanced, outputs.0, outputs.1, &mut first) {
+        if let Some(after) = write_point(index, advanced, outputs.0, outputs.1, &mut first) {
             *state = after;
         }
     }
@@ -76,15 +76,9 @@ pub fn advance_components<L: Evolution<S, X>, const S: usize, const X: usize>(
     tangents: &mut [FirstPiolaTangent],
 ) -> Result<(), InelasticError> {
     let outputs = (stresses, tangents);
-    let count = from.len();
-    for found in states.iter().map(|states| states.len()) {
-        if found != count {
-            return Err(InelasticError::WrongLength { quantity: "states", expected: count, found });
-        }
-    }
-    check_lengths(count, [count, to.len(), outputs.0.len(), outputs.1.len()])?;
+    check_arrays(states, [from, to], outputs.0.len(), outputs.1.len())?;
     let mut first = None;
-    for index in 0..count {
+    for index in 0..from.len() {
         let mut state = [0.0; S];
         for (value, all) in state.iter_mut().zip(&*states) {
             *value = all[index];
@@ -93,13 +87,29 @@ pub fn advance_components<L: Evolution<S, X>, const S: usize, const X: usize>(
             InelasticPoint::with_state(&law, &state, &from[index])
                 .and_then(|mut point| point.advance(&to[index], dt, control))
         });
-        if let Some(after) = written(index, advanced, outputs.0, outputs.1, &mut first) {
+        if let Some(after) = write_point(index, advanced, outputs.0, outputs.1, &mut first) {
             for (value, all) in after.iter().zip(&mut *states) {
                 all[index] = *value;
             }
         }
     }
     first.map_or(Ok(()), Err)
+}
+
+/// Refuses arrays of unlike lengths.
+pub(crate) fn check_arrays<const S: usize>(
+    states: &[&mut [f64]; S],
+    [from, to]: [&[DeformationGradient]; 2],
+    stresses: usize,
+    tangents: usize,
+) -> Result<(), InelasticError> {
+    let expected = from.len();
+    for found in states.iter().map(|states| states.len()) {
+        if found != expected {
+            return Err(InelasticError::WrongLength { quantity: "states", expected, found });
+        }
+    }
+    check_lengths(expected, [expected, to.len(), stresses, tangents])
 }
 
 fn check_lengths(expected: usize, found: [usize; 4]) -> Result<(), InelasticError> {
@@ -114,7 +124,7 @@ fn check_lengths(expected: usize, found: [usize; 4]) -> Result<(), InelasticErro
 }
 
 /// Writes stress and tangent of a point and returns its new state; of a point that failed NaN, and notes the first such error.
-fn written<const S: usize>(
+pub(crate) fn write_point<const S: usize>(
     index: usize,
     advanced: Result<Advanced<S>, InelasticError>,
     stresses: &mut [FirstPiola],

@@ -86,6 +86,7 @@ impl<A: Hyperelastic, B: Hyperelastic> Evolution<9, 6> for ReeseGovindjee<A, B> 
         flow::virgin()
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn residual<T: Real>(&self, from: &[T; 9], gradient: &Rows<T>, unknowns: &[T; 6], dt: f64) -> [T; 6] {
         let increment = flow::increment(unknowns);
         let stress = flow::mandel(&self.overstress, &flow::elastic(gradient, &flow::inelastic(from), &increment));
@@ -94,11 +95,13 @@ impl<A: Hyperelastic, B: Hyperelastic> Evolution<9, 6> for ReeseGovindjee<A, B> 
         (increment - shape - volume).components
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn updated<T: Real>(&self, from: &[T; 9], _gradient: &Rows<T>, unknowns: &[T; 6], _dt: f64) -> [T; 9] {
         let after = product(flow::exponential(&flow::increment(unknowns)), flow::inelastic(from));
         flow::with_inelastic(*from, &after)
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola<T: Real>(&self, gradient: &Rows<T>, state: &[T; 9]) -> Rows<T> {
         parallel(&self.equilibrium, &self.overstress, gradient, state)
     }

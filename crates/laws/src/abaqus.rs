@@ -30,9 +30,9 @@
 
 use core::marker::PhantomData;
 
-use piola_batch::{BatchScalar, Destination, Point, Quantity, Refusal, Request};
+use piola_batch::{Point, Quantity, Refusal, Request, Together};
 use piola_continuum::Deformation;
-use piola_numerics::{Lanes, Mask, Real};
+use piola_numerics::{Mask, Real};
 use piola_solids::{Hyperelastic, SolidsError};
 use piola_tensor::internal::rows::Rows;
 pub use piola_tensor::voigt::{Abaqus, Piola, VoigtOrder};
@@ -171,8 +171,8 @@ pub fn stress_and_jaumann<O: VoigtOrder, L: Hyperelastic + Sync, F: Frame, V, W>
     _frame: F,
     stress: V,
     tangent: W,
-) -> Request<UserMaterial<'_, L, O, F>, (), StressAndTangent<V, W>, 0, 42> {
-    Request::new(UserMaterial { law, frame: PhantomData }, (), StressAndTangent(stress, tangent))
+) -> Request<UserMaterial<'_, L, O, F>, (), Together<V, W>, 0, 42> {
+    Request::new(UserMaterial { law, frame: PhantomData }, (), Together(stress, tangent))
 }
 
 impl<L: Hyperelastic, O: VoigtOrder, F: Frame> UserMaterial<'_, L, O, F> {
@@ -256,47 +256,4 @@ quantities! {
     42 |material, point| material.both(point);
 }
 
-/// Two destinations of one request.
-#[derive(Clone, Copy, Debug)]
-pub struct StressAndTangent<V, W>(V, W);
-
-impl<Q, T, V, W> Destination<Q, T, 42> for StressAndTangent<V, W>
-where
-    T: BatchScalar,
-    V: Destination<Q, T, 6>,
-    W: Destination<Q, T, 36>,
-{
-    const IN_LANES: bool = V::IN_LANES && W::IN_LANES;
-    const RECORDS: bool = V::RECORDS && W::RECORDS;
-    fn count(&self) -> usize {
-        // Both are checked: no batch is as long as a pair of unlike lengths.
-        let (first, second) = (self.0.count(), self.1.count());
-        if first == second { first } else { usize::MAX }
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn split(self, middle: usize) -> (Self, Self) {
-        let ((a, b), (c, d)) = (self.0.split(middle), self.1.split(middle));
-        (Self(a, c), Self(b, d))
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn put(&mut self, index: usize, components: [T; 42]) {
-        if let (Some(head), Some(tail)) = (components.first_chunk(), components.last_chunk()) {
-            self.0.put(index, *head);
-            self.1.put(index, *tail);
-        }
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn store<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; 42]) {
-        if let (Some(head), Some(tail)) = (values.first_chunk(), values.last_chunk()) {
-            self.0.store(first, count, head);
-            self.1.store(first, count, tail);
-        }
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn scatter<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; 42]) {
-        if let (Some(head), Some(tail)) = (values.first_chunk(), values.last_chunk()) {
-            self.0.scatter(first, count, head);
-            self.1.scatter(first, count, tail);
-        }
-    }
-}
+piola_batch::together!([O, F,] UserMaterial<'static, (), O, F>, 42 = UserMaterial<'static, (), O, F>, 6 + UserMaterial<'static, (), O, F>, 36);

@@ -9,6 +9,7 @@ pub mod coupled;
 mod error;
 mod examine;
 pub mod invariants;
+pub mod kinds;
 mod methods;
 pub mod mixed;
 pub mod plane;
@@ -20,6 +21,8 @@ mod varied;
 pub use algebra::{Decoupled, OfVolume, Scaled, Sum};
 pub use error::LawsError;
 pub use examine::examine;
+#[cfg(feature = "batch")]
+pub use invariants::per_point;
 pub use invariants::{EnergyOfInvariants, Excesses, OfInvariants};
 pub use mixed::{ThreeField, TwoField};
 pub use piola_solids::SolidsError;

@@ -160,6 +160,7 @@ macro_rules! by_functions {
         answers! { |self, deformation| $($method -> $result { stretch::$method(self, deformation) })+ }
     };
 }
+pub(crate) use by_functions;
 
 impl<L: EnergyOfStretches> Hyperelastic for OfStretches<L> {
     #[cfg_attr(not(debug_assertions), inline(always))]

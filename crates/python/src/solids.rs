@@ -48,6 +48,13 @@ impl Solid {
         serde_json::to_string(&self.0).map_err(refused)
     }
 
+    /// The energy at each point.
+    #[expect(clippy::needless_pass_by_value, reason = "borrows of arrays end here")]
+    fn energy(&self, py: Python<'_>, f: Read<'_>, mut out: Write<'_>) -> PyResult<Option<String>> {
+        let (f, out) = (nine(numbers(&f)?)?, numbers_mut(&mut out)?);
+        message(py.detach(|| points::energy(&self.0, f, out)))
+    }
+
     /// The stress at each point.
     #[expect(clippy::needless_pass_by_value, reason = "borrows of arrays end here")]
     fn stress(&self, py: Python<'_>, measure: &str, f: Read<'_>, mut out: Write<'_>) -> PyResult<Option<String>> {

@@ -65,6 +65,28 @@ def test_the_tangent_is_the_derivative_of_the_stress(law):
     np.testing.assert_array_equal(tangent, np.transpose(tangent, (0, 3, 4, 1, 2)))
 
 
+def test_the_stress_is_the_derivative_of_the_energy(law):
+    f = deformations(6).reshape(2, 3, 3, 3)
+    assert law.energy(np.diag([2.0, 1.0, 1.0])) == 5.625  # (lambda/2 + mu) E11^2
+    assert law.energy(f).shape == (2, 3)
+    stress, step = law.stress(f, "first_piola"), 1e-5
+    for j in range(3):
+        for b in range(3):
+            shifted = np.zeros((3, 3))
+            shifted[j, b] = step
+            difference = law.energy(f + shifted) - law.energy(f - shifted)
+            # Central differences of a quartic: the step squared, and rounding over the step.
+            np.testing.assert_allclose(stress[..., j, b], difference / (2.0 * step), rtol=0.0, atol=1e-8)
+    out = np.empty((2, 3))
+    assert law.energy(f, out=out) is out
+    f[1, 2] = 0.0
+    with pytest.raises(ValueError, match="1 of 6 points failed: at point 5"):
+        law.energy(f)
+    assert np.isnan(law.energy(f, bad_points="nan")[1, 2])
+    with pytest.raises(ValueError, match="is needed"):
+        law.energy(f, out=np.empty(6))
+
+
 def test_stress_and_tangent_together_are_those_alone(law):
     f = deformations(300)
     stress, tangent = law.stress_and_tangent(f, ("cauchy", "jaumann"), voigt="abaqus")

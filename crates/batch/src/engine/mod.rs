@@ -11,4 +11,5 @@ pub(crate) mod request;
 pub(crate) mod scalar;
 pub(crate) mod sources;
 pub(crate) mod tangents;
+pub(crate) mod together;
 pub(crate) mod views;

@@ -8,7 +8,7 @@ use super::PiolaStatus;
 use super::memory::{choice, hand_over, handle, optional_text, points, points_mut, slice, slice_mut, text, texts};
 use super::status::answer;
 use crate::points::{StressMeasure, TangentMeasure, VoigtNumbering};
-use crate::{named, points, text};
+use crate::{FfiError, named, points, text};
 
 /// A law of a solid. Made by `piola_solid_from_*`, freed by `piola_solid_free`.
 #[derive(Debug)]
@@ -139,6 +139,23 @@ pub unsafe extern "C" fn piola_solid_free(solid: *mut PiolaSolid) {
     }
 }
 
+/// The law, the deformations and the memory for one kind of numbers.
+///
+/// # Safety
+/// See the [module](super).
+unsafe fn evaluation<'a>(
+    solid: *const PiolaSolid,
+    f: *const f64,
+    f_length: usize,
+    out: *mut f64,
+    out_length: usize,
+) -> Result<(&'a AnySolid, &'a [[f64; 9]], &'a mut [f64]), FfiError> {
+    // SAFETY: as the caller promises.
+    let (solid, f, out) =
+        unsafe { (handle("solid", solid)?, slice("f", f, f_length)?, slice_mut("out", out, out_length)?) };
+    Ok((&solid.0, points("f", f)?, out))
+}
+
 /// Stress at n points.
 ///
 /// `stress` is a `PiolaStress`. `f` has the deformation gradients, nine numbers a point by rows; `out` gets the stresses, Pa, nine
@@ -158,10 +175,9 @@ pub unsafe extern "C" fn piola_stress(
 ) -> PiolaStatus {
     answer(|| {
         // SAFETY: as the caller promises.
-        let (solid, f, out) =
-            unsafe { (handle("solid", solid)?, slice("f", f, f_length)?, slice_mut("out", out, out_length)?) };
+        let (law, f, out) = unsafe { evaluation(solid, f, f_length, out, out_length)? };
         let measure = choice("stress", &StressMeasure::ALL, stress)?;
-        points::stress(&solid.0, measure, points("f", f)?, points_mut("out", out)?)
+        points::stress(law, measure, f, points_mut("out", out)?)
     })
 }
 
@@ -182,9 +198,8 @@ pub unsafe extern "C" fn piola_energy(
 ) -> PiolaStatus {
     answer(|| {
         // SAFETY: as the caller promises.
-        let (solid, f, out) =
-            unsafe { (handle("solid", solid)?, slice("f", f, f_length)?, slice_mut("out", out, out_length)?) };
-        points::energy(&solid.0, points("f", f)?, out)
+        let (law, f, out) = unsafe { evaluation(solid, f, f_length, out, out_length)? };
+        points::energy(law, f, out)
     })
 }
 
@@ -206,11 +221,10 @@ pub unsafe extern "C" fn piola_tangent(
 ) -> PiolaStatus {
     answer(|| {
         // SAFETY: as the caller promises.
-        let (solid, f, out) =
-            unsafe { (handle("solid", solid)?, slice("f", f, f_length)?, slice_mut("out", out, out_length)?) };
+        let (law, f, out) = unsafe { evaluation(solid, f, f_length, out, out_length)? };
         let measure = choice("tangent", &TangentMeasure::ALL, tangent)?;
         let numbering = choice("Voigt order", &VoigtNumbering::ALL, voigt)?;
-        points::tangent(&solid.0, measure, numbering, points("f", f)?, out)
+        points::tangent(law, measure, numbering, f, out)
     })
 }
 

@@ -21,10 +21,11 @@ use core::f64::consts::FRAC_PI_2;
 use nalgebra::DMatrix;
 use piola_numerics::{Dual, Gradient, Real};
 
+use crate::estimates::{Estimates, estimates, narrowed};
 use crate::search::{Misfit, Range, minimise};
 use crate::solids::SolidParameter;
-use crate::statistics::{Autocorrelation, Covariance, Criteria, interval, student};
-use crate::{FitError, Outcome, State};
+use crate::statistics::{Autocorrelation, Criteria};
+use crate::{FitError, Outcome};
 use test::{Output, Point};
 
 pub use model::SidesModel;
@@ -154,7 +155,7 @@ pub fn fit_sides(model: SidesModel, tests: &[SidesTest], options: &SidesOptions)
     }
     let problem = Problem::new(model, tests, &options.bounds)?;
     let points = problem.rows();
-    let searched: Vec<usize> = (0..problem.ranges.len()).filter(|&k| !problem.is_fixed(k)).collect();
+    let searched: Vec<usize> = (0..problem.ranges.len()).filter(|&k| !problem.ranges[k].is_fixed()).collect();
     if points < searched.len() {
         return Err(FitError::TooFewPoints { model: model.to_string(), points, parameters: searched.len() });
     }
@@ -222,25 +223,8 @@ impl Problem {
             ranges.push(Range { bounds: own, least: 1e-9 });
             names.push((name, is_stress));
         }
-        for (parameter, [low, high]) in bounds {
-            let Some(k) = names.iter().position(|(name, _)| name == parameter) else {
-                return Err(FitError::UnknownParameter { model: model.to_string(), parameter: parameter.clone() });
-            };
-            let [lower, upper] = [low.max(ranges[k].bounds[0]), high.min(ranges[k].bounds[1])];
-            // The larger of NaN and a number is the number.
-            let holds_a_number = !low.is_nan() && !high.is_nan() && lower <= upper && lower < f64::INFINITY;
-            if !holds_a_number {
-                let (model, parameter) = (model.to_string(), parameter.clone());
-                return Err(FitError::ImpossibleBounds { model, parameter, lower, upper });
-            }
-            ranges[k].bounds = [lower, upper];
-        }
+        let ranges = narrowed(&model.to_string(), &names, ranges, bounds)?;
         Ok(Self { model, points, parts, names, ranges })
-    }
-
-    fn is_fixed(&self, k: usize) -> bool {
-        let [low, high] = self.ranges[k].bounds;
-        high <= low
     }
 
     fn rows(&self) -> usize {
@@ -321,47 +305,18 @@ impl Problem {
     }
 
     fn report(&self, tests: &[SidesTest], theta: &[f64], squares: f64, confidence: f64) -> SidesFit {
-        let points = self.rows();
         let (residuals, slopes) = self.evaluate(theta).unwrap_or_else(|| (Vec::new(), DMatrix::zeros(0, theta.len())));
-        let at_bound = |k: usize| {
-            let near = |bound: f64| bound.is_finite() && (theta[k] - bound).abs() <= 1e-7 * bound.abs().max(1e-3);
-            self.is_fixed(k) || self.ranges[k].bounds.into_iter().any(near)
-        };
-        let free: Vec<usize> = (0..theta.len()).filter(|&k| !at_bound(k)).collect();
-        let degrees_of_freedom = points - free.len();
-        let has_errors = 0 < degrees_of_freedom;
-        let variance = if has_errors { squares / degrees_of_freedom as f64 } else { 0.0 };
         let (found, series) = self.residuals(tests, &residuals);
-        let autocorrelation = Autocorrelation::of(series.iter().map(Vec::as_slice)).filter(|_| 1e-9 < variance.sqrt());
-        let widening = autocorrelation.map_or(1.0, |found| found.widening);
-        let quantile = student(confidence, degrees_of_freedom).map(|t| t * widening);
-        let covariance = Covariance::new(&slopes, &free, variance);
-        let estimate = |(k, (name, is_stress)): (usize, &(String, bool))| {
-            let state = match covariance.parameters.contains(&k) {
-                true if has_errors => State::Determined,
-                true => State::NoDegreesOfFreedom,
-                false if free.contains(&k) => State::Undetermined,
-                false => State::AtBound,
-            };
-            let standard_error = covariance.standard_error(k).filter(|_| has_errors);
-            let half = standard_error.zip(quantile).map(|(error, quantile)| quantile * error);
-            let interval = half.map(|half| interval(theta[k], self.ranges[k].bounds, half));
-            SolidParameter {
-                name: name.clone(),
-                is_stress: *is_stress,
-                value: theta[k],
-                standard_error,
-                interval,
-                state,
-            }
-        };
+        let series: Vec<&[f64]> = series.iter().map(Vec::as_slice).collect();
+        let Estimates { parameters, degrees_of_freedom, criteria, autocorrelation } =
+            estimates(&self.names, theta, &self.ranges, &slopes, &series, confidence);
         SidesFit {
             model: self.model.to_string(),
-            parameters: self.names.iter().enumerate().map(estimate).collect(),
+            parameters,
             tests: found,
             weighted_squares: squares,
             degrees_of_freedom,
-            criteria: Criteria::new(points, free.len(), squares),
+            criteria,
             autocorrelation,
             outcome: Outcome::NoFurtherDecrease,
             starts: 0,

@@ -2,6 +2,8 @@
 
 #[cfg(feature = "fluids")]
 mod fluids;
+#[cfg(feature = "history")]
+mod history;
 #[cfg(feature = "solids")]
 mod sides;
 #[cfg(feature = "solids")]

@@ -4,6 +4,7 @@ mod alloc;
 mod grown;
 mod in_series;
 mod kinematic;
+mod lanes;
 mod laws;
 mod newton;
 mod paths;

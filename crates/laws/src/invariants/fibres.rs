@@ -20,7 +20,32 @@ use super::excesses::MOST_FAMILIES;
 use super::variables::{FIFTH, FIRST, FOURTH, LOGARITHM, SECOND, Variables};
 
 /// An energy over all variables.
-type Energy<T> = Hessian<T, 7, 28>;
+pub(super) type Energy<T> = Hessian<T, 7, 28>;
+
+/// What is asked for at a point: an energy, which may have parameters of the point.
+pub(super) trait AtPoint<T: Real> {
+    const FIBRES: usize;
+    const SECOND: bool;
+    fn fibre(&self, family: usize) -> [f64; 3];
+    fn energy(&self, at: &Variables<'_, T>) -> Energy<T>;
+}
+
+/// An energy with parameters of its own.
+struct Plain<'a, L>(&'a L);
+
+impl<T: Real, L: EnergyOfInvariants> AtPoint<T> for Plain<'_, L> {
+    const FIBRES: usize = L::FIBRES;
+    const SECOND: bool = L::SECOND;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn fibre(&self, family: usize) -> [f64; 3] {
+        self.0.fibre(family)
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn energy(&self, at: &Variables<'_, T>) -> Energy<T> {
+        self.0.energy(at)
+    }
+}
 
 /// Quantities of F and of the fibres.
 struct Kinematics<T> {
@@ -36,7 +61,7 @@ struct Kinematics<T> {
 
 /// F and ∇u, then J and J − 1: what a law of fibres asks a deformation for.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn inputs<T: Real>(deformation: &impl Deformation<T>) -> [T; 20] {
+pub(super) fn inputs<T: Real>(deformation: &impl Deformation<T>) -> [T; 20] {
     let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = packed::of_deformation(deformation);
     let (jacobian, change) = (deformation.jacobian(), deformation.volume_change());
     [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, jacobian, change]
@@ -54,7 +79,7 @@ fn parts<T: Real>(n: [T; 20]) -> ([Rows<T>; 2], [T; 2]) {
 
 impl<T: Real> Kinematics<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn of<L: EnergyOfInvariants>(law: &L, [f, h]: [Rows<T>; 2], [jacobian, volume]: [T; 2]) -> Self {
+    fn of<L: AtPoint<T>>(law: &L, [f, h]: [Rows<T>; 2], [jacobian, volume]: [T; 2]) -> Self {
         let change = kernels::right_cauchy_green_minus_one(h);
         let [a, b, c, d, e, g] = change.components;
         let (two, three, first) = (T::lit(2.0), T::lit(3.0), a + b + c);
@@ -90,7 +115,7 @@ impl<T: Real> Kinematics<T> {
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn energy<L: EnergyOfInvariants>(&self, law: &L) -> Energy<T> {
+    fn energy<L: AtPoint<T>>(&self, law: &L) -> Energy<T> {
         law.energy(&Variables {
             isotropic: &self.isotropic,
             fibres: self.fibres,
@@ -238,25 +263,37 @@ fn at_fixed_invariants<T: Real>(energy: &Energy<T>) -> Energy<T> {
     turned
 }
 
+/// P of F, ∇u, J and J − 1.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn stress_numbers<T: Real, L: AtPoint<T>>(law: &L, inputs: [T; 20]) -> [T; 9] {
+    let (gradients, volume) = parts(inputs);
+    let kinematics = Kinematics::of(law, gradients, volume);
+    packed::of_stress(product(gradients[0], kinematics.stress(&kinematics.energy(law)).rows()))
+}
+
+/// P and the upper triangle of ∂P/∂F of F, ∇u, J and J − 1.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn both_numbers<T: Real, L: AtPoint<T>>(law: &L, inputs: [T; 20]) -> [T; 54] {
+    let (gradients, volume) = parts(inputs);
+    let kinematics = Kinematics::of(law, gradients, volume);
+    let energy = kinematics.energy(law);
+    first_piola_numbers(gradients[0], &kinematics.stress(&energy), &kinematics.tangent(&energy))
+}
+
 /// Answers of F, ∇u, J and J − 1.
 struct OfFibres<L>(L);
 
 impl<L: EnergyOfInvariants> Lanewise<20, 9> for OfFibres<L> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 20]) -> [T; 9] {
-        let (gradients, volume) = parts(inputs);
-        let kinematics = Kinematics::of(&self.0, gradients, volume);
-        packed::of_stress(product(gradients[0], kinematics.stress(&kinematics.energy(&self.0)).rows()))
+        stress_numbers(&Plain(&self.0), inputs)
     }
 }
 
 impl<L: EnergyOfInvariants> Lanewise<20, 54> for OfFibres<L> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 20]) -> [T; 54] {
-        let (gradients, volume) = parts(inputs);
-        let kinematics = Kinematics::of(&self.0, gradients, volume);
-        let energy = kinematics.energy(&self.0);
-        first_piola_numbers(gradients[0], &kinematics.stress(&energy), &kinematics.tangent(&energy))
+        both_numbers(&Plain(&self.0), inputs)
     }
 }
 
@@ -282,7 +319,8 @@ pub(super) fn stress_and_tangent<T: Real, L: EnergyOfInvariants>(
     deformation: &impl Deformation<T>,
 ) -> (Symmetric<T>, MajorSymmetric<T>) {
     let (gradients, volume) = parts(inputs(deformation));
-    let kinematics = Kinematics::of(law, gradients, volume);
-    let energy = kinematics.energy(law);
+    let law = Plain(law);
+    let kinematics = Kinematics::of(&law, gradients, volume);
+    let energy = kinematics.energy(&law);
     (kinematics.stress(&energy), kinematics.tangent(&energy))
 }

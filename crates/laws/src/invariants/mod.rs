@@ -13,6 +13,8 @@ mod energy;
 mod excesses;
 mod fibres;
 mod law;
+#[cfg(feature = "batch")]
+pub mod per_point;
 mod variables;
 
 pub use energy::EnergyOfInvariants;

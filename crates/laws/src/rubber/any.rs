@@ -260,11 +260,12 @@ impl ExtendedTube {
     }
 }
 
-/// A law as it is written.
+/// A law as it is written: its name tells how the rest is read, so that a refusal names the parameter and its bound.
 #[cfg(feature = "serde")]
 mod written {
     use serde::de::Error as _;
     use serde::{Deserialize, Deserializer};
+    use serde_json::Value;
 
     use super::{AnyRubber, AnySolid, AnyVolumetric, ExtendedTube, Hyperfoam, RubberShape};
 
@@ -285,26 +286,32 @@ mod written {
         Hyperfoam(Hyperfoam),
     }
 
-    /// One of them, or a built-in law.
-    #[derive(Deserialize)]
-    #[serde(untagged)]
-    enum Written {
-        Own(Own),
-        Solid(AnySolid),
-    }
+    /// Their names.
+    const NAMES: [&str; 3] = ["rubber", "extended_tube", "hyperfoam"];
 
     impl<'de> Deserialize<'de> for AnyRubber {
         fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-            Ok(match Written::deserialize(deserializer)? {
-                Written::Own(Own::Rubber { shape, volumetric }) => {
-                    Self::of_shape(shape, volumetric).map_err(D::Error::custom)?
-                }
-                Written::Own(Own::ExtendedTube { tube, volumetric }) => {
-                    Self::of_tube(tube, volumetric).map_err(D::Error::custom)?
-                }
-                Written::Own(Own::Hyperfoam(foam)) => foam.into(),
-                Written::Solid(solid) => Self::Solid(solid),
-            })
+            let written = Value::deserialize(deserializer)?;
+            let law = written.get("law").and_then(Value::as_str).unwrap_or_default().to_owned();
+            if !NAMES.contains(&law.as_str()) {
+                let solid: Result<AnySolid, _> = serde_json::from_value(written);
+                return solid.map(Self::Solid).map_err(|error| {
+                    let message = error.to_string();
+                    // A name that is not known: those of this module are valid, too.
+                    let is_unknown = message.starts_with(&format!("unknown variant `{law}`"));
+                    let own = if is_unknown {
+                        format!(", {}", NAMES.map(|name| format!("`{name}`")).join(", "))
+                    } else {
+                        String::new()
+                    };
+                    D::Error::custom(message + &own)
+                });
+            }
+            match serde_json::from_value(written).map_err(D::Error::custom)? {
+                Own::Rubber { shape, volumetric } => Self::of_shape(shape, volumetric).map_err(D::Error::custom),
+                Own::ExtendedTube { tube, volumetric } => Self::of_tube(tube, volumetric).map_err(D::Error::custom),
+                Own::Hyperfoam(foam) => Ok(foam.into()),
+            }
         }
     }
 }

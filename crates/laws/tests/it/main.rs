@@ -5,7 +5,10 @@ mod abaqus;
 mod algebra;
 mod alloc;
 mod coupled;
+mod kinds;
 mod mixed;
+#[cfg(feature = "batch")]
+mod per_point;
 mod plane;
 mod refusals;
 mod rubber;

@@ -293,5 +293,18 @@ fn written_laws_of_rubber_equal_those_read() -> Fallible {
     assert!(serde_json::from_str::<AnyRubber>(solid)?.solid().is_some());
     let wrong = r#"{"law":"rubber","shape":{"law":"carroll","a":-1.0,"b":0.0,"c":0.0}}"#;
     assert!(serde_json::from_str::<AnyRubber>(wrong).is_err());
+    // A refusal names the parameter and its bound, or the field, or the laws that there are.
+    for (text, expected) in [
+        (r#"{"law": "saint_venant_kirchhoff", "first_lame_parameter": 10.0, "shear_modulus": -2.0}"#, "0 < μ"),
+        (r#"{"law": "rubber", "shape": {"law": "carroll", "linear": -1.0, "quartic": 0.0, "root": 0.0}}"#, "0 < A"),
+        (r#"{"law": "hyperfoam", "terms": []}"#, "1 ≤ number of terms ≤ 6"),
+        (r#"{"law": "blatz_ko", "shear_modulus": 1.0, "poisson_ratio": 0.25}"#, "missing field `solid_fraction`"),
+        (r#"{"law": "rubber", "shape": {"law": "gum"}}"#, "unknown variant `gum`, expected one of `carroll`"),
+        (r#"{"law": "gum"}"#, "`anisotropic_saint_venant_kirchhoff`, `rubber`, `extended_tube`, `hyperfoam`"),
+        (r#"{"shear_modulus": 1.0}"#, "missing field `law`"),
+    ] {
+        let error = serde_json::from_str::<AnyRubber>(text).map(|_| ()).expect_err(text).to_string();
+        assert!(error.contains(expected), "{text}: {error}");
+    }
     Ok(())
 }

@@ -148,6 +148,24 @@ class Solid:
     def __reduce__(self) -> tuple[Any, tuple[str]]:
         return (Solid.from_json, (self.to_json(),))
 
+    def energy(self, f: Any, *, out: np.ndarray | None = None, bad_points: str = "raise") -> np.ndarray:
+        """Strain energy W(F) - W(1), J/m^3 of the reference, at deformation gradients ``f`` of shape (..., 3, 3); shape (...).
+
+        ``out`` and ``bad_points`` are as in :meth:`stress`. Points are computed one after the other, not in lanes.
+
+        >>> bar = np.diag([2.0, 1.0, 1.0])
+        >>> law = Solid("saint_venant_kirchhoff", first_lame_parameter=1.0, shear_modulus=2.0)
+        >>> float(law.energy(bar))              # (lambda/2 + mu) E11^2
+        5.625
+        """
+        f = _array("f", f, (3, 3))
+        result = _output(out, f.shape[:-2])
+        _choice("bad_points", bad_points, ("raise", "nan"))
+        message = self._solid.energy(f.reshape(-1), result.reshape(-1))
+        if message is not None and bad_points == "raise":
+            raise ValueError(message)
+        return result
+
     def stress(
         self, f: Any, measure: str = "cauchy", *, out: np.ndarray | None = None, bad_points: str = "raise"
     ) -> np.ndarray:

@@ -45,6 +45,7 @@ mod together;
 
 pub use crate::error::BadPoint;
 pub use evaluation::evaluate;
+pub use piola_batch::Together;
 pub use requests::*;
 pub use tangents::*;
 pub use together::*;

@@ -1,8 +1,8 @@
 //! Requests of several quantities that share work, each with a destination of its own.
 
-use piola_batch::{BatchScalar, Destination, Point, Quantity, Refusal, Request};
+use piola_batch::{Point, Quantity, Refusal, Request, Together, together};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, SecondPiola};
-use piola_numerics::{Lanes, Real};
+use piola_numerics::Real;
 
 use super::requests::{EnergyOf, flat, quantities};
 use super::tangents::{FirstPiolaTangentOf, MaterialTangentOf, TruesdellTangentOf, upper};
@@ -121,64 +121,6 @@ pub fn first_piola_and_tangent<L: Hyperelastic + Sync, V, W>(
     tangent: W,
 ) -> Request<FirstPiolaAndTangentOf<'_, L>, (), Together<V, W>, 0, 54> {
     shared(law, Together(stress, tangent))
-}
-
-/// Two destinations of one request.
-#[derive(Clone, Copy, Debug)]
-pub struct Together<V, W>(V, W);
-
-/// Of `$whole` numbers `$first` go to the first destination, `$second` to the second.
-macro_rules! together {
-    ($output:ty, $whole:literal = $first_output:ty, $first:literal + $second_output:ty, $second:literal) => {
-        impl<T, V, W> Destination<$output, T, $whole> for Together<V, W>
-        where
-            T: BatchScalar,
-            V: Destination<$first_output, T, $first>,
-            W: Destination<$second_output, T, $second>,
-        {
-            const IN_LANES: bool = V::IN_LANES && W::IN_LANES;
-            const RECORDS: bool = V::RECORDS && W::RECORDS;
-            fn count(&self) -> usize {
-                // Both are checked: no batch is as long as a pair of unlike lengths.
-                let (first, second) = (self.0.count(), self.1.count());
-                if first == second { first } else { usize::MAX }
-            }
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn split(self, middle: usize) -> (Self, Self) {
-                let ((a, b), (c, d)) = (self.0.split(middle), self.1.split(middle));
-                (Self(a, c), Self(b, d))
-            }
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn put(&mut self, index: usize, components: [T; $whole]) {
-                let (mut first, mut second) = ([components[0]; $first], [components[0]; $second]);
-                let mut k = 0;
-                while k < $first {
-                    first[k] = components[k];
-                    k += 1;
-                }
-                while k < $whole {
-                    second[k - $first] = components[k];
-                    k += 1;
-                }
-                self.0.put(index, first);
-                self.1.put(index, second);
-            }
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn store<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; $whole]) {
-                if let (Some(head), Some(tail)) = (values.first_chunk(), values.last_chunk()) {
-                    self.0.store(first, count, head);
-                    self.1.store(first, count, tail);
-                }
-            }
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn scatter<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; $whole]) {
-                if let (Some(head), Some(tail)) = (values.first_chunk(), values.last_chunk()) {
-                    self.0.scatter(first, count, head);
-                    self.1.scatter(first, count, tail);
-                }
-            }
-        }
-    };
 }
 
 together!(FirstPiolaAndTangentOf<'static, ()>, 54 = FirstPiola, 9 + FirstPiolaTangentOf<'static, ()>, 45);

@@ -39,8 +39,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("inelastic", &["specimens"]),
     // fields, by feature: a body made of one law.
     ("specimens", &["solids", "fields"]),
-    // laws: those of rubber and foam that a fit may find.
-    ("fit", &["laws", "specimens", "viscometry"]),
+    // laws: those of rubber and foam that a fit may find; inelastic: those with history.
+    ("fit", &["laws", "specimens", "inelastic", "viscometry"]),
     ("spectra", &["fluids", "fit"]),
     ("solutions", &["solids", "fields", "integrators"]),
     ("uniformity", &["solids", "fields", "integrators"]),
@@ -106,6 +106,7 @@ const BY_FEATURE: &[(&str, &str)] = &[
     ("solids", "batch"),
     ("specimens", "fields"),
     ("solutions", "integrators"),
+    ("fit", "inelastic"),
     ("fit", "laws"),
     ("fit", "specimens"),
     ("fit", "viscometry"),

@@ -1,0 +1,86 @@
+//! What data say of the parameters of a solid: errors, intervals, criteria; and bounds given by name.
+
+use nalgebra::DMatrix;
+
+use crate::search::Range;
+use crate::solids::SolidParameter;
+use crate::statistics::{Autocorrelation, Covariance, Criteria, interval, student};
+use crate::{FitError, State};
+
+/// Parameters with their errors, and what else the residuals say.
+pub(crate) struct Estimates {
+    pub(crate) parameters: Vec<SolidParameter>,
+    pub(crate) degrees_of_freedom: usize,
+    pub(crate) criteria: Criteria,
+    pub(crate) autocorrelation: Option<Autocorrelation>,
+}
+
+/// Of names with whether each is a stress, values, ranges, derivatives of the residuals by all parameters, and the residuals as series of
+/// neighbours.
+pub(crate) fn estimates(
+    names: &[(String, bool)],
+    theta: &[f64],
+    ranges: &[Range],
+    slopes: &DMatrix<f64>,
+    series: &[&[f64]],
+    confidence: f64,
+) -> Estimates {
+    let points: usize = series.iter().map(|residuals| residuals.len()).sum();
+    let squares: f64 = series.iter().flat_map(|residuals| residuals.iter()).map(|r| r * r).sum();
+    let at_bound = |k: usize| {
+        let near = |bound: f64| bound.is_finite() && (theta[k] - bound).abs() <= 1e-7 * bound.abs().max(1e-3);
+        ranges[k].is_fixed() || ranges[k].bounds.into_iter().any(near)
+    };
+    let free: Vec<usize> = (0..theta.len()).filter(|&k| !at_bound(k)).collect();
+    let degrees_of_freedom = points - free.len();
+    let has_errors = 0 < degrees_of_freedom;
+    let variance = if has_errors { squares / degrees_of_freedom as f64 } else { 0.0 };
+    let autocorrelation = Autocorrelation::of(series.iter().copied()).filter(|_| 1e-9 < variance.sqrt());
+    let widening = autocorrelation.map_or(1.0, |found| found.widening);
+    let quantile = student(confidence, degrees_of_freedom).map(|t| t * widening);
+    let covariance = Covariance::new(slopes, &free, variance);
+    let estimate = |(k, (name, is_stress)): (usize, &(String, bool))| {
+        let state = match covariance.parameters.contains(&k) {
+            true if has_errors => State::Determined,
+            true => State::NoDegreesOfFreedom,
+            false if free.contains(&k) => State::Undetermined,
+            false => State::AtBound,
+        };
+        let standard_error = covariance.standard_error(k).filter(|_| has_errors);
+        let half = standard_error.zip(quantile).map(|(error, quantile)| quantile * error);
+        let interval = half.map(|half| interval(theta[k], ranges[k].bounds, half));
+        SolidParameter { name: name.clone(), is_stress: *is_stress, value: theta[k], standard_error, interval, state }
+    };
+    Estimates {
+        parameters: names.iter().enumerate().map(estimate).collect(),
+        degrees_of_freedom,
+        criteria: Criteria::new(points, free.len(), squares),
+        autocorrelation,
+    }
+}
+
+/// Ranges of parameters, narrowed by bounds given by name.
+///
+/// # Errors
+/// [`FitError::UnknownParameter`], [`FitError::ImpossibleBounds`].
+pub(crate) fn narrowed(
+    model: &str,
+    names: &[(String, bool)],
+    mut ranges: Vec<Range>,
+    bounds: &[(String, [f64; 2])],
+) -> Result<Vec<Range>, FitError> {
+    for (parameter, [low, high]) in bounds {
+        let Some(k) = names.iter().position(|(name, _)| name == parameter) else {
+            return Err(FitError::UnknownParameter { model: model.to_owned(), parameter: parameter.clone() });
+        };
+        let [lower, upper] = [low.max(ranges[k].bounds[0]), high.min(ranges[k].bounds[1])];
+        // The larger of NaN and a number is the number.
+        let holds_a_number = !low.is_nan() && !high.is_nan() && lower <= upper && lower < f64::INFINITY;
+        if !holds_a_number {
+            let (model, parameter) = (model.to_owned(), parameter.clone());
+            return Err(FitError::ImpossibleBounds { model, parameter, lower, upper });
+        }
+        ranges[k].bounds = [lower, upper];
+    }
+    Ok(ranges)
+}

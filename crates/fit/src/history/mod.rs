@@ -1,0 +1,318 @@
+//! Laws with history: viscoelasticity, plasticity and stress softening, fitted to stress–time and cyclic stress–stretch tables.
+//!
+//! ```text
+//! minimise S(θ) = Σ ((P(θ; path) − P̂)/P̂ₘ)²
+//! ```
+//! P̂ₘ is the largest stress of a test. The law is followed along the path of each test, its free sides found on the way; all tests are
+//! fitted at once. The search needs a start of its own for each parameter.
+//!
+//! # Example
+//! See [`fit_history`].
+
+mod model;
+mod test;
+
+use core::cell::Cell;
+
+use nalgebra::DMatrix;
+use piola_inelastic::StepControl;
+
+use crate::estimates::{Estimates, estimates, narrowed};
+use crate::search::{Misfit, Range, minimise};
+use crate::solids::SolidParameter;
+use crate::statistics::{Autocorrelation, Criteria};
+use crate::{FitError, Outcome};
+
+pub use model::{AnyHistoryModel, HistoryModel, HistoryParameter};
+pub use test::{HistoryTest, follow};
+
+/// Options of a fit.
+///
+/// # Example
+/// See [`fit_history`].
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct HistoryOptions {
+    /// Least and greatest values of parameters by name; they narrow those of the model. Equal ends fix a parameter.
+    pub bounds: Vec<(String, [f64; 2])>,
+    /// How the increments between two rows are integrated.
+    pub control: StepControl,
+    /// The probability of the intervals.
+    pub confidence: f64,
+    /// Evaluations of the search, for each unknown.
+    pub patience: usize,
+}
+
+impl Default for HistoryOptions {
+    fn default() -> Self {
+        Self { bounds: Vec::new(), control: StepControl::default(), confidence: 0.95, patience: 100 }
+    }
+}
+
+impl HistoryOptions {
+    /// With bounds of a parameter; equal ends hold it.
+    #[must_use]
+    pub fn with_bounds(mut self, parameter: &str, bounds: [f64; 2]) -> Self {
+        self.bounds.push((parameter.to_owned(), bounds));
+        self
+    }
+
+    /// With another integration of the increments.
+    #[must_use]
+    pub const fn with_control(mut self, control: StepControl) -> Self {
+        self.control = control;
+        self
+    }
+}
+
+/// Residuals of a test.
+///
+/// # Example
+/// See [`fit_history`].
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct HistoryResiduals {
+    /// Name of the test.
+    pub test: String,
+    /// The RMS residual over the largest stress.
+    pub relative_rms: f64,
+    /// P − P̂ of each row.
+    pub stresses: Vec<f64>,
+}
+
+/// A fitted law with history.
+///
+/// # Example
+/// See [`fit_history`].
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct HistoryFit {
+    /// The model.
+    pub model: String,
+    /// Its parameters, in its order.
+    pub parameters: Vec<SolidParameter>,
+    /// Residuals of each test.
+    pub tests: Vec<HistoryResiduals>,
+    /// S.
+    pub weighted_squares: f64,
+    /// Numbers measured less parameters that could be moved.
+    pub degrees_of_freedom: usize,
+    /// Criteria for choosing between laws.
+    pub criteria: Criteria,
+    /// Correlation of neighbouring residuals.
+    pub autocorrelation: Option<Autocorrelation>,
+    /// How the search ended.
+    pub outcome: Outcome,
+    /// How often the law was followed along all tests.
+    pub evaluations: usize,
+}
+
+impl HistoryFit {
+    /// The values of the parameters.
+    #[must_use]
+    pub fn values(&self) -> Vec<f64> {
+        self.parameters.iter().map(|parameter| parameter.value).collect()
+    }
+}
+
+/// Fits a law with history to tests, all at once, from a start.
+///
+/// # Errors
+/// [`FitError::NoTests`], [`FitError::TestTwice`]; [`FitError::NumberOfValues`] of the start; [`FitError::TooFewPoints`];
+/// [`FitError::WrongLength`] of stresses of a model of one's own; [`FitError::UnknownParameter`], [`FitError::ImpossibleBounds`], [`FitError::ConfidenceOutOfRange`]. What the law refuses at the start,
+/// such as [`FitError::NoHistory`].
+///
+/// # Accuracy
+/// Derivatives are central differences of the stresses over 1e-5 of a parameter. Data without errors give their parameters back to 1e-8,
+/// if they tell them and `control` is that of the data or the error that it allows is small.
+///
+/// # Example
+/// A block is sheared by ½ at once and held: the shear stress of Reese and Govindjee's law relaxes from 1.5 to ½ Pa.
+/// ```
+/// use piola_fit::history::{AnyHistoryModel, HistoryModel, HistoryOptions, HistoryTest, fit_history};
+/// use piola_fit::sides::Loading;
+/// use piola_inelastic::StepControl;
+/// let model = AnyHistoryModel::ReeseGovindjee;
+/// let made = [1.0, 5.0, 2.0, 10.0, 3.0]; // μ, λ at rest; μ, λ, η of the spring that flows
+/// let control = StepControl::one_step();
+/// let mut rows = [0.0, 0.5, 1.0, 2.0, 4.0, 8.0].map(|t| [t, 0.5, 0.0]);
+/// let path = HistoryTest::new("path", Loading::SimpleShear, &rows)?;
+/// for (row, stress) in rows.iter_mut().zip(model.stresses(&made, &path, &control)?) {
+///     row[2] = stress;
+/// }
+/// assert!((rows[0][2] - 1.5).abs() < 1e-12); // (1 + 2) k
+/// let test = HistoryTest::new("hold", Loading::SimpleShear, &rows)?;
+/// // In a shear the volume stays: λ of the law at rest is not told, and that of the other hardly.
+/// let options = HistoryOptions::default()
+///     .with_control(control)
+///     .with_bounds("first_lame_parameter", [5.0, 5.0])
+///     .with_bounds("overstress_first_lame_parameter", [10.0, 10.0]);
+/// let fit = fit_history(&model, &[test], &[2.0, 5.0, 1.0, 10.0, 1.0], &options)?;
+/// for (found, made) in fit.values().iter().zip(made) {
+///     assert!((found / made - 1.0).abs() < 1e-8);
+/// }
+/// # Ok::<(), piola_fit::FitError>(())
+/// ```
+pub fn fit_history(
+    model: &dyn HistoryModel,
+    tests: &[HistoryTest],
+    start: &[f64],
+    options: &HistoryOptions,
+) -> Result<HistoryFit, FitError> {
+    if !(0.0 < options.confidence && options.confidence < 1.0) {
+        return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
+    }
+    if tests.is_empty() {
+        return Err(FitError::NoTests);
+    }
+    for (index, test) in tests.iter().enumerate() {
+        if tests[..index].iter().any(|other| other.name() == test.name()) {
+            return Err(FitError::TestTwice { test: test.name().to_owned() });
+        }
+    }
+    let parameters = model.parameters();
+    if start.len() != parameters.len() {
+        let (model, parameters, values) = (model.name(), parameters.len(), start.len());
+        return Err(FitError::NumberOfValues { model, parameters, values });
+    }
+    let names: Vec<(String, bool)> =
+        parameters.iter().map(|(name, is_stress, _)| ((*name).to_owned(), *is_stress)).collect();
+    let own = parameters.iter().map(|(_, _, bounds)| Range { bounds: *bounds, least: 1e-9 }).collect();
+    let ranges = narrowed(&model.name(), &names, own, &options.bounds)?;
+    let searched: Vec<usize> = (0..ranges.len()).filter(|&k| !ranges[k].is_fixed()).collect();
+    let points = tests.iter().map(|test| test.rows().len()).sum();
+    if points < searched.len() {
+        return Err(FitError::TooFewPoints { model: model.name(), points, parameters: searched.len() });
+    }
+    let start = start.iter().zip(&ranges).map(|(value, range)| value.clamp(range.bounds[0], range.bounds[1])).collect();
+    let problem = Problem { model, tests, ranges, control: options.control, points, evaluations: Cell::new(0) };
+    problem.residuals(&start)?;
+    let x = searched.iter().map(|&k| problem.ranges[k].inward(start[k])).collect();
+    let walk = Walk { problem: &problem, searched: &searched, parameters: start };
+    let Some(end) = minimise(walk, x, options.patience.clamp(1, 1_000_000), &|| false) else {
+        return Err(FitError::NoStart { model: model.name() });
+    };
+    let (theta, residuals) = (end.misfit.parameters, end.state);
+    let slopes = problem.slopes(&theta, &searched);
+    let mut rest = residuals.as_slice();
+    let (mut series, mut found) = (Vec::new(), Vec::new());
+    for test in tests {
+        let (weighted, others) = rest.split_at(test.rows().len());
+        rest = others;
+        series.push(weighted);
+        found.push(HistoryResiduals {
+            test: test.name().to_owned(),
+            relative_rms: (weighted.iter().map(|x| x * x).sum::<f64>() / weighted.len() as f64).sqrt(),
+            stresses: weighted.iter().map(|residual| residual * test.largest_stress()).collect(),
+        });
+    }
+    let Estimates { parameters, degrees_of_freedom, criteria, autocorrelation } =
+        estimates(&names, &theta, &problem.ranges, &slopes, &series, options.confidence);
+    Ok(HistoryFit {
+        model: model.name(),
+        parameters,
+        tests: found,
+        weighted_squares: residuals.iter().map(|r| r * r).sum(),
+        degrees_of_freedom,
+        criteria,
+        autocorrelation,
+        outcome: end.outcome,
+        evaluations: problem.evaluations.get(),
+    })
+}
+
+/// The data and ranges of a search.
+struct Problem<'a> {
+    model: &'a dyn HistoryModel,
+    tests: &'a [HistoryTest],
+    ranges: Vec<Range>,
+    control: StepControl,
+    points: usize,
+    evaluations: Cell<usize>,
+}
+
+/// The step of a difference in the unbounded coordinate of a parameter: of a positive one its share.
+const STEP: f64 = 1e-5;
+
+impl Problem<'_> {
+    /// Residuals over their scales.
+    fn residuals(&self, theta: &[f64]) -> Result<Vec<f64>, FitError> {
+        self.evaluations.set(self.evaluations.get() + 1);
+        let mut residuals = Vec::with_capacity(self.points);
+        for test in self.tests {
+            let scale = test.largest_stress();
+            let found = self.model.stresses(theta, test, &self.control)?;
+            let (expected, computed) = (test.rows().len(), found.len());
+            if computed != expected {
+                return Err(FitError::WrongLength { quantity: "stresses of a model", expected, found: computed });
+            }
+            residuals.extend(found.iter().zip(test.rows()).map(|(stress, row)| (stress - row[2]) / scale));
+        }
+        Ok(residuals)
+    }
+
+    /// The residuals with a parameter moved by a step of its coordinate.
+    fn moved(&self, theta: &[f64], k: usize, step: f64) -> Option<Vec<f64>> {
+        let mut moved = theta.to_vec();
+        moved[k] = self.ranges[k].outward(self.ranges[k].inward(theta[k]) + step)[0];
+        self.residuals(&moved).ok()
+    }
+
+    /// Derivatives of the residuals by the coordinates of the searched parameters, in columns.
+    fn by_coordinates(&self, theta: &[f64], searched: &[usize]) -> DMatrix<f64> {
+        let mut slopes = DMatrix::zeros(self.points, searched.len());
+        for (column, &k) in searched.iter().enumerate() {
+            // Where the law answers on neither side the derivative is zero, and the search does not move that parameter.
+            if let (Some(up), Some(down)) = (self.moved(theta, k, STEP), self.moved(theta, k, -STEP)) {
+                for (row, (up, down)) in up.iter().zip(down).enumerate() {
+                    slopes[(row, column)] = (up - down) / (2.0 * STEP);
+                }
+            }
+        }
+        slopes
+    }
+
+    /// Derivatives by all parameters; zero of those that are held.
+    fn slopes(&self, theta: &[f64], searched: &[usize]) -> DMatrix<f64> {
+        let found = self.by_coordinates(theta, searched);
+        let mut slopes = DMatrix::zeros(self.points, theta.len());
+        for (column, &k) in searched.iter().enumerate() {
+            let rate = self.ranges[k].outward(self.ranges[k].inward(theta[k]))[1];
+            slopes.set_column(k, &(found.column(column) / rate));
+        }
+        slopes
+    }
+}
+
+/// One walk of a search.
+struct Walk<'p, 'a> {
+    problem: &'p Problem<'a>,
+    searched: &'p [usize],
+    parameters: Vec<f64>,
+}
+
+impl Misfit for Walk<'_, '_> {
+    type State = Vec<f64>;
+
+    fn rows(&self) -> usize {
+        self.problem.points
+    }
+
+    fn visit(&mut self, x: &[f64]) -> Option<Vec<f64>> {
+        for (&k, &x) in self.searched.iter().zip(x) {
+            self.parameters[k] = self.problem.ranges[k].outward(x)[0];
+        }
+        let residuals = self.problem.residuals(&self.parameters).ok()?;
+        residuals.iter().all(|x| x.is_finite()).then_some(residuals)
+    }
+
+    fn residuals<'s>(&self, residuals: &'s Vec<f64>) -> &'s [f64] {
+        residuals
+    }
+
+    fn jacobian(&self, _residuals: &Vec<f64>, _x: &[f64]) -> DMatrix<f64> {
+        self.problem.by_coordinates(&self.parameters, self.searched)
+    }
+}
