@@ -3,6 +3,8 @@
 #![forbid(unsafe_code)]
 
 mod error;
+pub mod expression;
+pub mod forces;
 pub mod fronts;
 pub mod joints;
 pub mod motion;

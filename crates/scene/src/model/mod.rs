@@ -4,6 +4,7 @@
 //! apart, coordinates independent, reference files read.
 
 mod central;
+mod forces;
 mod gravitation;
 mod mechanism;
 mod reference;

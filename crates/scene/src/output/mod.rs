@@ -22,6 +22,7 @@ pub fn write(folder: &Folder, scene: &Scene, plan: &Plan, run: &Run, summary: &S
         "summary.json" => Some(summary.to_json()),
         "trajectory.csv" => Some(tables::trajectory(&run.history)),
         "invariants.csv" => Some(tables::invariants(&run.history)),
+        "works.csv" => Some(tables::works(&run.history)),
         "coordinates.csv" => Some(tables::coordinates(&run.history)),
         "reference.csv" => Some(tables::reference(run)),
         "trajectory.svg" => Some(figures::trajectory(title(scene), &run.history, gravity(scene))),

@@ -25,13 +25,13 @@ pub(super) fn trajectory(history: &History) -> String {
 pub(super) fn invariants(history: &History) -> String {
     let mut text = String::from(
         "time_s,energy_J,relative_energy_drift,post_newtonian_energy_J,relative_post_newtonian_energy_drift,\
-         relative_momentum_drift,relative_angular_momentum_drift\n",
+         relative_momentum_drift,relative_angular_momentum_drift,work_J\n",
     );
     let show = |x: Option<f64>| x.map(|x| format!("{x:?}")).unwrap_or_default();
     for (record, drift) in history.invariants.iter().zip(history.drift_series()) {
         let _ = writeln!(
             text,
-            "{:?},{:?},{:?},{},{},{},{}",
+            "{:?},{:?},{:?},{},{},{},{},{:?}",
             record.time,
             record.energy,
             drift.energy,
@@ -39,6 +39,7 @@ pub(super) fn invariants(history: &History) -> String {
             show(drift.post_newtonian_energy),
             show(drift.momentum),
             show(drift.angular_momentum),
+            record.work,
         );
     }
     text
@@ -58,6 +59,23 @@ pub(super) fn coordinates(history: &History) -> String {
         let _ = write!(text, "{time:?}");
         for value in values {
             let _ = write!(text, ",{value:?}");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// Works of the forces of a mechanism since the start.
+pub(super) fn works(history: &History) -> String {
+    let mut text = String::from("time_s");
+    for name in &history.work_names {
+        let _ = write!(text, ",work of {name} (J)");
+    }
+    text.push('\n');
+    for (time, works) in history.times.iter().zip(&history.works) {
+        let _ = write!(text, "{time:?}");
+        for work in works {
+            let _ = write!(text, ",{work:?}");
         }
         text.push('\n');
     }

@@ -7,10 +7,11 @@ use core::fmt;
 pub use piola_simulation::motion::Method;
 
 use piola_document::words;
+use piola_simulation::forces::Force;
 use piola_simulation::motion::Timetable;
 use serde::{Serialize, Serializer};
 
-use crate::model::{ReferenceKind, Scene, System};
+use crate::model::{Mechanism, ReferenceKind, Scene, System};
 
 /// The plan of a run.
 ///
@@ -181,7 +182,7 @@ impl Plan {
                     self.skip("attitudes", "no rigid bodies");
                 }
                 self.skip("row of time in the metric", "the placement does not depend on time");
-                self.compute("energy", "conserved: at every recorded instant");
+                self.force_items(system);
                 self.skip("momentum and angular momentum", "not conserved: the ground holds the mechanism");
             }
             System::Central(system) => {
@@ -191,6 +192,30 @@ impl Plan {
                 self.compute("energy and angular momentum", "conserved: at every recorded instant");
                 self.skip("momentum", "not conserved: the centre is held");
             }
+        }
+    }
+
+    fn force_items(&mut self, system: &Mechanism) {
+        for Force { name, kind } in &system.forces {
+            let what = match (kind.stores(), kind.works()) {
+                (true, true) => "stores energy, and works: its power is integrated with the motion",
+                (true, false) => "stores energy: by exact derivatives",
+                (false, true) => "works: its power is integrated with the motion",
+                (false, false) => {
+                    self.skip(name, "neither stiffness nor damping");
+                    continue;
+                }
+            };
+            self.compute(&format!("force `{name}`"), what);
+        }
+        if system.forces.is_empty() {
+            self.skip("forces besides gravity", "no [[force]]");
+        }
+        if system.forces.iter().any(|force| force.kind.works()) {
+            self.compute("energy less work", "conserved: at every recorded instant");
+        } else {
+            self.compute("energy", "conserved: at every recorded instant");
+            self.skip("work", "nothing takes energy or gives it");
         }
     }
 
@@ -211,6 +236,10 @@ impl Plan {
             self.files.extend(["trajectory.csv", "invariants.csv"].map(str::to_string));
             if matches!(scene.system, System::Mechanism(_)) {
                 self.files.push("coordinates.csv".to_string());
+            }
+            if matches!(&scene.system, System::Mechanism(system) if system.forces.iter().any(|force| force.kind.works()))
+            {
+                self.files.push("works.csv".to_string());
             }
             if scene.reference.is_some() {
                 self.files.push("reference.csv".to_string());
@@ -275,7 +304,9 @@ fn describe(system: &System) -> String {
 fn equations(system: &System) -> usize {
     match system {
         System::Gravitation(system) => 6 * system.bodies.len(),
-        System::Mechanism(system) => 2 * system.coordinates.len(),
+        System::Mechanism(system) => {
+            2 * system.coordinates.len() + system.forces.iter().filter(|force| force.kind.works()).count()
+        }
         System::Central(system) => 6 * system.bodies.len(),
     }
 }

@@ -5,6 +5,7 @@ mod bad_input;
 mod boxes;
 #[cfg(all(feature = "solutions", feature = "spectral"))]
 mod figures;
+mod forces;
 mod plan;
 mod reference;
 mod run;

@@ -19,6 +19,10 @@ pub struct History {
     pub coordinate_names: Vec<String>,
     /// Coordinates and then their rates, for each instant; empty unless a mechanism.
     pub coordinates: Vec<Vec<f64>>,
+    /// Names of the forces of a mechanism that take energy or give it.
+    pub work_names: Vec<String>,
+    /// Their works since the start, J, for each instant; empty without such forces.
+    pub works: Vec<Vec<f64>>,
     /// Invariants. With an adaptive method they stand at the end of the step that an instant falls into, where the state is
     /// best known.
     pub invariants: Vec<Invariants>,
@@ -37,6 +41,8 @@ pub struct Invariants {
     pub time: f64,
     /// Kinetic and potential energy, J.
     pub energy: f64,
+    /// The work that forces, dampers and drives have brought in since the start, J: `energy` − `work` is what is conserved.
+    pub work: f64,
     /// A scale of energy besides the first energy: the kinetic energy in a mechanism, whose potential has an arbitrary zero; 0
     /// otherwise.
     pub energy_scale: f64,
@@ -68,7 +74,8 @@ pub struct Drift {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Drifts {
-    /// |E − E₀| relative to |E₀| (in a mechanism to the largest of |E₀| and the kinetic energy).
+    /// |E − W − E₀| relative to |E₀| (in a mechanism to the largest of |E₀| and the kinetic energy), W being the work of its
+    /// forces.
     pub energy: Option<Drift>,
     /// Drift of the energy with its post-Newtonian part, likewise.
     pub post_newtonian_energy: Option<Drift>,
@@ -113,7 +120,7 @@ impl History {
             .iter()
             .map(|record| DriftAt {
                 time: record.time,
-                energy: relative((record.energy - first.energy).abs(), energy_scale),
+                energy: relative((record.energy - record.work - first.energy).abs(), energy_scale),
                 post_newtonian_energy: record
                     .post_newtonian_energy
                     .zip(first.post_newtonian_energy)
