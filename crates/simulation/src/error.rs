@@ -98,6 +98,28 @@ pub enum SimulationError {
         /// Its value.
         value: f64,
     },
+    /// A condition 0 < x violated.
+    #[error("`{quantity}` is {value}; it must be greater than zero")]
+    NotPositive {
+        /// The name of the quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// An expression of coordinates or rates where none may stand.
+    #[error("`{quantity}` depends on coordinate {coordinate}; it may depend on the time alone")]
+    DependsOnCoordinate {
+        /// The name of what depends.
+        quantity: &'static str,
+        /// The index of the coordinate.
+        coordinate: usize,
+    },
+    /// A method that constraints do not allow.
+    #[error("the method {method} does not keep constraints: an adaptive one does, as dormand-prince-853")]
+    ConstraintsNeedProjection {
+        /// The name of the method.
+        method: String,
+    },
     /// An expression of rates where none may stand.
     #[error(
         "`{quantity}` depends on the rate of coordinate {coordinate}; it may depend on coordinates and on time alone"

@@ -2,6 +2,7 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+pub mod constraints;
 mod error;
 pub mod expression;
 pub mod forces;

@@ -197,7 +197,7 @@ impl<'m> Surroundings<'m> {
     }
 
     /// Refuses a spring whose ends are one point of one frame.
-    fn apart(record: &Record, ends: &[Anchor; 2]) -> Result<(), Box<Mistake>> {
+    pub(super) fn apart(record: &Record, ends: &[Anchor; 2]) -> Result<(), Box<Mistake>> {
         if ends[0] != ends[1] {
             return Ok(());
         }

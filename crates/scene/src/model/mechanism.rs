@@ -39,11 +39,15 @@ impl Builder<'_> {
             return None;
         }
         let surroundings = Surroundings::of(self, scene, &mechanism);
-        let forces = self.forces(scene, &surroundings)?;
+        let (forces, constraints) = (self.forces(scene, &surroundings), self.constraints(scene, &surroundings));
+        let reactions = scene.record("output").and_then(|output| output.flag("reactions")).unwrap_or(false);
+        let (forces, constraints) = (forces?, constraints?);
+        let built = mechanism.with_forces(forces).and_then(|mechanism| mechanism.with_constraints(constraints));
         let refused = |error: SimulationError| {
-            Mistake::new(table.place.clone(), error.to_string()).valid("forces of finite numbers")
+            Mistake::new(table.place.clone(), error.to_string()).valid("forces and constraints of finite numbers")
         };
-        mechanism.with_forces(forces).map_err(|error| self.wrong(refused(error))).ok()
+        let mechanism = built.map_err(|error| self.wrong(refused(error))).ok()?;
+        Some(Mechanism { reactions, ..mechanism })
     }
 
     fn joint(&mut self, record: &Record, names: &[&str]) -> Option<Joint> {

@@ -23,6 +23,8 @@ pub fn write(folder: &Folder, scene: &Scene, plan: &Plan, run: &Run, summary: &S
         "trajectory.csv" => Some(tables::trajectory(&run.history)),
         "invariants.csv" => Some(tables::invariants(&run.history)),
         "works.csv" => Some(tables::works(&run.history)),
+        "reactions.csv" => Some(tables::reactions(&run.history)),
+        "constraints.csv" => Some(tables::conditions(&run.history)),
         "coordinates.csv" => Some(tables::coordinates(&run.history)),
         "reference.csv" => Some(tables::reference(run)),
         "trajectory.svg" => Some(figures::trajectory(title(scene), &run.history, gravity(scene))),

@@ -1,17 +1,17 @@
 //! The plan of a run: method and step, computed and skipped quantities, each with its reason.
 
 mod choice;
+mod mechanism;
 
 use core::fmt;
 
 pub use piola_simulation::motion::Method;
 
 use piola_document::words;
-use piola_simulation::forces::Force;
 use piola_simulation::motion::Timetable;
 use serde::{Serialize, Serializer};
 
-use crate::model::{Mechanism, ReferenceKind, Scene, System};
+use crate::model::{ReferenceKind, Scene, System};
 
 /// The plan of a run.
 ///
@@ -182,6 +182,7 @@ impl Plan {
                     self.skip("attitudes", "no rigid bodies");
                 }
                 self.skip("row of time in the metric", "the placement does not depend on time");
+                self.constraint_items(system, scene.time.start);
                 self.force_items(system);
                 self.skip("momentum and angular momentum", "not conserved: the ground holds the mechanism");
             }
@@ -192,30 +193,6 @@ impl Plan {
                 self.compute("energy and angular momentum", "conserved: at every recorded instant");
                 self.skip("momentum", "not conserved: the centre is held");
             }
-        }
-    }
-
-    fn force_items(&mut self, system: &Mechanism) {
-        for Force { name, kind } in &system.forces {
-            let what = match (kind.stores(), kind.works()) {
-                (true, true) => "stores energy, and works: its power is integrated with the motion",
-                (true, false) => "stores energy: by exact derivatives",
-                (false, true) => "works: its power is integrated with the motion",
-                (false, false) => {
-                    self.skip(name, "neither stiffness nor damping");
-                    continue;
-                }
-            };
-            self.compute(&format!("force `{name}`"), what);
-        }
-        if system.forces.is_empty() {
-            self.skip("forces besides gravity", "no [[force]]");
-        }
-        if system.forces.iter().any(|force| force.kind.works()) {
-            self.compute("energy less work", "conserved: at every recorded instant");
-        } else {
-            self.compute("energy", "conserved: at every recorded instant");
-            self.skip("work", "nothing takes energy or gives it");
         }
     }
 
@@ -237,9 +214,8 @@ impl Plan {
             if matches!(scene.system, System::Mechanism(_)) {
                 self.files.push("coordinates.csv".to_string());
             }
-            if matches!(&scene.system, System::Mechanism(system) if system.forces.iter().any(|force| force.kind.works()))
-            {
-                self.files.push("works.csv".to_string());
+            if let System::Mechanism(system) = &scene.system {
+                self.files.extend(mechanism::tables(system).map(str::to_string));
             }
             if scene.reference.is_some() {
                 self.files.push("reference.csv".to_string());
@@ -304,9 +280,7 @@ fn describe(system: &System) -> String {
 fn equations(system: &System) -> usize {
     match system {
         System::Gravitation(system) => 6 * system.bodies.len(),
-        System::Mechanism(system) => {
-            2 * system.coordinates.len() + system.forces.iter().filter(|force| force.kind.works()).count()
-        }
+        System::Mechanism(system) => 2 * system.coordinates.len() + mechanism::works(system),
         System::Central(system) => 6 * system.bodies.len(),
     }
 }

@@ -1,11 +1,11 @@
-//! The keys of forces on mechanisms.
+//! The keys of forces and constraints on mechanisms.
 
 use piola_document::table;
 use piola_document::units::Dimension as D;
 
 use super::Absent::{Default, Optional, Required};
 use super::Kind::{Name, Text};
-use super::Range::{Any, NotNegative};
+use super::Range::{Any, NotNegative, Positive};
 use super::{Kind, Word, quantity, word};
 
 /// Stiffness, N/m.
@@ -96,5 +96,39 @@ table! {
         drive: Text, Required, only_for &["motor"];
         /// The stored energy, J.
         energy: Text, Required, only_for &["potential"];
+    }
+}
+
+/// The kinds of constraints.
+static CONSTRAINT_TYPES: [Word; 3] = [
+    word("distance", "two points stay at one distance, as the ends of a rod without mass"),
+    word("loop", "two points are one: a joint that closes a loop"),
+    word("prescribed", "a coordinate moves as an expression of the time says; its drive does work"),
+];
+
+const TIES: &[&str] = &["distance", "loop"];
+
+table! {
+    /// A constraint on a `[mechanism]` besides its joints. The motion starts at the nearest state that satisfies all constraints.
+    /// Constraints that depend on others, as the third direction of a plane loop, do no harm.
+    pub(super) static CONSTRAINT = "constraint" {
+        /// Name, unlike any other constraint.
+        name: Name, Required;
+        /// What it holds.
+        type: Kind::Choice(&CONSTRAINT_TYPES), Required;
+        /// The joint, particle or rigid body that has the first point, or `ground`.
+        from: Name, Required, only_for TIES;
+        /// The first point in its frame.
+        from_at: Kind::Numbers(D::LENGTH, &[3]), Default("[0.0, 0.0, 0.0]"), only_for TIES;
+        /// The joint, particle or rigid body that has the second point, or `ground`.
+        to: Name, Required, only_for TIES;
+        /// The second point in its frame.
+        to_at: Kind::Numbers(D::LENGTH, &[3]), Default("[0.0, 0.0, 0.0]"), only_for TIES;
+        /// The distance; that at the start when absent.
+        length: quantity(D::LENGTH, Positive), Optional, only_for &["distance"];
+        /// The coordinate that is prescribed.
+        coordinate: Text, Required, only_for &["prescribed"];
+        /// Its value, an expression of `t`.
+        motion: Text, Required, only_for &["prescribed"];
     }
 }

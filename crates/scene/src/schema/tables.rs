@@ -15,7 +15,7 @@ const fn vector(dimension: D) -> Kind {
 /// The kinds of scenes.
 pub static SCENE_KINDS: [SceneKind; 11] = [
     motion("gravity", &["body"]),
-    motion("mechanism", &["joint", "particle", "rigid_body", "force", "parameters"]),
+    motion("mechanism", &["joint", "particle", "rigid_body", "force", "constraint", "parameters"]),
     motion("central", &["body"]),
     study("wavefront", &["medium"]),
     study("room", &[]),
@@ -85,6 +85,8 @@ table! {
         rigid_body: Kind::Tables(&RIGID_BODY), Optional;
         /// What acts on a `[mechanism]` besides gravity.
         force: Kind::Tables(&forces::FORCE), Optional;
+        /// What holds a `[mechanism]` besides its joints.
+        constraint: Kind::Tables(&forces::CONSTRAINT), Optional;
         /// Numbers with names for expressions; `--set parameters.NAME=VALUE` changes one.
         parameters: Kind::Parameters, Optional;
         /// The parts of the medium of a `[wavefront]`.
@@ -297,6 +299,9 @@ table! {
         tables: Flag, Default("true");
         /// Whether SVG figures are drawn.
         figures: Flag, Default("true");
+        /// Whether the forces and moments that hold the parts of a `[mechanism]`, and the forces of its constraints and drives,
+        /// are recorded.
+        reactions: Flag, Default("false");
     }
 }
 

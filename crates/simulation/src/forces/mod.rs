@@ -12,6 +12,7 @@
 mod build;
 mod work;
 
+pub(crate) use build::exists;
 pub(crate) use work::working;
 
 use nalgebra::Vector3;

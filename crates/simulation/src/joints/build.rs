@@ -132,6 +132,8 @@ impl Mechanism {
             position: Vec::new(),
             velocity: Vec::new(),
             forces: Vec::new(),
+            constraints: Vec::new(),
+            reactions: false,
         };
         // Coordinates are numbered as the joints are written.
         for draft in joints {

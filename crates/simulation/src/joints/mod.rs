@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 use piola_kinematics::{Attitude, Holonomic, Placement};
 use piola_numerics::Real;
 
+use crate::constraints::Constraint;
 use crate::forces::Force;
 
 pub use anchor::Anchor;
@@ -47,6 +48,10 @@ pub struct Mechanism {
     pub velocity: Vec<f64>,
     /// What acts besides gravity; [`with_forces`](Self::with_forces) checks and sets it.
     pub forces: Vec<Force>,
+    /// What holds it; [`with_constraints`](Self::with_constraints) checks and sets it.
+    pub constraints: Vec<Constraint>,
+    /// Whether reactions are recorded.
+    pub reactions: bool,
 }
 
 /// A part with its mass.

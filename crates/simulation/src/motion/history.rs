@@ -23,9 +23,27 @@ pub struct History {
     pub work_names: Vec<String>,
     /// Their works since the start, J, for each instant; empty without such forces.
     pub works: Vec<Vec<f64>>,
+    /// Names of the forces of constraints, each with its unit: tensions, forces of loops, drives.
+    pub condition_names: Vec<String>,
+    /// These forces for each instant; empty unless reactions are asked for.
+    pub conditions: Vec<Vec<f64>>,
+    /// Forces and moments on the parts, for each instant and part; empty unless reactions are asked for.
+    pub reactions: Vec<Vec<PartReaction>>,
     /// Invariants. With an adaptive method they stand at the end of the step that an instant falls into, where the state is
     /// best known.
     pub invariants: Vec<Invariants>,
+}
+
+/// What holds a part of a mechanism beside gravity: m ẍ − m g, by its joint, by forces and by constraints together.
+///
+/// # Example
+/// See [`simulate`](super::simulate).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PartReaction {
+    /// Force, N, in space.
+    pub force: [f64; 3],
+    /// Moment about the centre of mass, N m, in space; zero of a particle.
+    pub moment: [f64; 3],
 }
 
 /// A vector with the magnitude that its changes are compared with.

@@ -18,7 +18,7 @@ use core::ops::ControlFlow;
 
 use piola_integrators::{Ending, Report};
 
-pub use history::{Drift, DriftAt, Drifts, History, Invariants, Scaled};
+pub use history::{Drift, DriftAt, Drifts, History, Invariants, PartReaction, Scaled};
 pub use method::Method;
 pub use system::{Central, Gravitation, MassPoint, NEWTONIAN_CONSTANT, Orbiter, PostNewtonian, System};
 pub use timetable::{TimeSpan, Timetable};
