@@ -27,10 +27,16 @@ pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
             let _ = writeln!(text, "{name:<24}{:>12.1e}{:>12.1e}", drift.max_relative, drift.last_relative);
         }
     };
-    line("energy", run.drifts.energy);
+    line(if run.history.work_names.is_empty() { "energy" } else { "energy less work" }, run.drifts.energy);
     line("post-Newtonian energy", run.drifts.post_newtonian_energy);
     line("momentum", run.drifts.momentum);
     line("angular momentum", run.drifts.angular_momentum);
+    if let Some(works) = run.history.works.last() {
+        let _ = writeln!(text, "\n{:<24}{:>12}", "work of", "J");
+        for (name, work) in run.history.work_names.iter().zip(works) {
+            let _ = writeln!(text, "{name:<24}{work:>12.4e}");
+        }
+    }
     if run.drifts.post_newtonian_energy.is_some() {
         text.push_str(
             "The post-Newtonian force depends on velocity: Newton's energy and angular momentum vary with the orbits. The\n\

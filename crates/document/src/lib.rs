@@ -19,5 +19,5 @@ pub use document::Document;
 pub use error::DocumentError;
 pub use mistake::{Located, Mistake, Report};
 pub use node::{Entry, Node, Value};
-pub use record::{Field, FieldValue, Record};
+pub use record::{Field, FieldValue, Parameter, Record};
 pub use source::{LARGEST_SCENE, Place, Source};

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::Place;
+use crate::units::Dimension;
 
 /// A table whose values have the declared kinds.
 ///
@@ -59,6 +60,39 @@ pub enum FieldValue {
     Record(Record),
     /// Of a list of tables.
     Records(Vec<Record>),
+    /// Of a table of parameters.
+    Parameters(Vec<Parameter>),
+}
+
+/// A number with a name of the writer's own.
+///
+/// # Example
+/// ```
+/// use piola_document::schema::{Absent, Kind};
+/// use piola_document::units::Dimension;
+/// piola_document::table! {
+///     /// A page.
+///     static PAGE = "page" {
+///         /// Numbers with names.
+///         parameters: Kind::Parameters, Absent::Optional;
+///     }
+/// }
+/// let document = piola_document::Document::parse("page.toml", "[parameters]\nheight = '2 km'\nshare = 0.5");
+/// let (record, _) = document.records(&PAGE);
+/// let [height, share] = record.parameters("parameters") else { panic!() };
+/// assert_eq!((height.value, height.dimension), (2000.0, Dimension::LENGTH));
+/// assert_eq!((share.name.as_str(), share.dimension), ("share", Dimension::NONE));
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Its name: letters, digits and `_`, not a digit first.
+    pub name: String,
+    /// Where the name stands.
+    pub place: Place,
+    /// The number in SI units.
+    pub value: f64,
+    /// Its dimension.
+    pub dimension: Dimension,
 }
 
 impl Record {
@@ -136,6 +170,14 @@ impl Record {
     pub fn records(&self, key: &str) -> &[Record] {
         match self.fields.get(key).map(|field| &field.value) {
             Some(FieldValue::Records(records)) => records,
+            _ => &[],
+        }
+    }
+    /// The parameters of a key; none where it is absent.
+    #[must_use]
+    pub fn parameters(&self, key: &str) -> &[Parameter] {
+        match self.fields.get(key).map(|field| &field.value) {
+            Some(FieldValue::Parameters(parameters)) => parameters,
             _ => &[],
         }
     }

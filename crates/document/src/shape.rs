@@ -1,6 +1,6 @@
 //! Checks the tree against the declared keys and makes records of it.
 
-use crate::record::{Field, FieldValue};
+use crate::record::{Field, FieldValue, Parameter};
 use crate::schema::{Absent, Key, Kind, Range, Table};
 use crate::units::{Dimension, Quantity, UnitError, VectorQuantity};
 use crate::{Document, Entry, Mistake, Node, Place, Record, Value, words};
@@ -135,6 +135,30 @@ impl Reader {
         self.mistakes.push(mistake);
     }
 
+    fn parameter(&mut self, key: &Key, entry: &Entry) -> Option<Parameter> {
+        let shown: String = entry.key.chars().take(60).collect();
+        let word = |c: char| c.is_alphanumeric() || c == '_';
+        if !entry.key.chars().all(word) || entry.key.chars().next().is_none_or(|c| c.is_ascii_digit()) {
+            self.mistakes.push(
+                Mistake::new(entry.place.clone(), format!("`{shown}` is no name of a parameter"))
+                    .valid("letters, digits and `_`, not a digit first"),
+            );
+            return None;
+        }
+        match measured(&entry.node) {
+            Ok((value, dimension)) => {
+                Some(Parameter { name: entry.key.clone(), place: entry.place.clone(), value, dimension })
+            }
+            Err(wrong) => {
+                let place = wrong.place.unwrap_or_else(|| entry.node.place.clone());
+                let valid = wrong.valid.unwrap_or_else(|| "a number, or a text with a unit, as \"2 N/m\"".to_string());
+                self.mistakes
+                    .push(Mistake::new(place, format!("`{shown}` in [{}] is {}", key.name, wrong.found)).valid(valid));
+                None
+            }
+        }
+    }
+
     fn value(&mut self, key: &Key, node: &Node) -> Option<FieldValue> {
         match (&key.kind, &node.value) {
             (Kind::Table(table), Value::Table(_)) => Some(FieldValue::Record(self.table(table, node, true))),
@@ -142,6 +166,11 @@ impl Reader {
                 if items.iter().all(|item| matches!(item.value, Value::Table(_))) =>
             {
                 Some(FieldValue::Records(items.iter().map(|item| self.table(table, item, true)).collect()))
+            }
+            (Kind::Parameters, Value::Table(entries)) => {
+                let parameters: Vec<Option<Parameter>> =
+                    entries.iter().map(|entry| self.parameter(key, entry)).collect();
+                Some(FieldValue::Parameters(parameters.into_iter().collect::<Option<_>>()?))
             }
             _ => match value(&key.kind, node) {
                 Ok(value) => Some(value),
@@ -158,6 +187,18 @@ impl Reader {
             },
         }
     }
+}
+
+/// A number in SI units with the dimension of its unit.
+fn measured(node: &Node) -> Result<(f64, Dimension), Wrong> {
+    let dimension = match &node.value {
+        Value::Text(text) => {
+            let quantity: Quantity = text.parse().map_err(|error| unreadable(text, &error))?;
+            quantity.dimension().unwrap_or(Dimension::NONE)
+        }
+        _ => Dimension::NONE,
+    };
+    Ok((number(dimension, node)?, dimension))
 }
 
 /// Whether `kind` is one of the values that the table's `type` may have.

@@ -13,6 +13,7 @@
 #![forbid(unsafe_code)]
 
 mod error;
+mod expression;
 pub mod model;
 pub mod output;
 pub mod plan;

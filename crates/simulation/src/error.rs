@@ -64,4 +64,70 @@ pub enum SimulationError {
         /// The largest number allowed, [`DEEPEST`](crate::joints::DEEPEST).
         most: usize,
     },
+    /// A node of an expression takes one that does not stand before it, or that another node takes.
+    #[error("node {node} of an expression takes node {operand}, which must stand before it and be taken once")]
+    ExpressionOrder {
+        /// The index of the node.
+        node: usize,
+        /// The index that it takes.
+        operand: usize,
+    },
+    /// An expression of more levels than an evaluation follows.
+    #[error("an expression has {depth} levels; at most {most} are allowed")]
+    ExpressionTooDeep {
+        /// The number of levels.
+        depth: usize,
+        /// The largest number allowed, [`DEEPEST_EXPRESSION`](crate::expression::DEEPEST_EXPRESSION).
+        most: usize,
+    },
+    /// An index beyond the last coordinate.
+    #[error("`{quantity}` has coordinate {coordinate}: the number of coordinates is {coordinates}")]
+    NoSuchCoordinate {
+        /// The name of what has it.
+        quantity: &'static str,
+        /// The index given.
+        coordinate: usize,
+        /// The number of coordinates.
+        coordinates: usize,
+    },
+    /// A condition 0 ≤ x violated.
+    #[error("`{quantity}` is {value}; it must be zero or more")]
+    Negative {
+        /// The name of the quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A condition 0 < x violated.
+    #[error("`{quantity}` is {value}; it must be greater than zero")]
+    NotPositive {
+        /// The name of the quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// An expression of coordinates or rates where none may stand.
+    #[error("`{quantity}` depends on coordinate {coordinate}; it may depend on the time alone")]
+    DependsOnCoordinate {
+        /// The name of what depends.
+        quantity: &'static str,
+        /// The index of the coordinate.
+        coordinate: usize,
+    },
+    /// A method that constraints do not allow.
+    #[error("the method {method} does not keep constraints: an adaptive one does, as dormand-prince-853")]
+    ConstraintsNeedProjection {
+        /// The name of the method.
+        method: String,
+    },
+    /// An expression of rates where none may stand.
+    #[error(
+        "`{quantity}` depends on the rate of coordinate {coordinate}; it may depend on coordinates and on time alone"
+    )]
+    DependsOnRate {
+        /// The name of what depends.
+        quantity: &'static str,
+        /// The index of the coordinate.
+        coordinate: usize,
+    },
 }

@@ -2,7 +2,10 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+pub mod constraints;
 mod error;
+pub mod expression;
+pub mod forces;
 pub mod fronts;
 pub mod joints;
 pub mod motion;

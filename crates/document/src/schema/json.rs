@@ -112,6 +112,7 @@ fn kind(kind: &Kind) -> Map<String, Value> {
         }),
         Kind::Table(inner) => return table(inner),
         Kind::Tables(inner) => json!({ "type": "array", "items": table(inner) }),
+        Kind::Parameters => json!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } }),
     };
     if let Value::Object(map) = schema { map } else { Map::new() }
 }

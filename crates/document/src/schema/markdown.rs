@@ -60,6 +60,7 @@ fn value(kind: &Kind) -> String {
         Kind::Choice(_) => "see below".to_string(),
         Kind::Table(inner) => format!("table `[{}]`", inner.name),
         Kind::Tables(inner) => format!("tables `[[{}]]`", inner.name),
+        Kind::Parameters => "names with numbers of any unit".to_string(),
     }
 }
 

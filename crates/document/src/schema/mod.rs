@@ -105,6 +105,8 @@ pub enum Kind {
     Table(&'static Table),
     /// A list of tables.
     Tables(&'static Table),
+    /// A table of names of the writer's own, each with a number of any dimension.
+    Parameters,
 }
 
 /// Which numbers are valid.
@@ -195,6 +197,7 @@ impl Kind {
             }
             Self::Table(table) => format!("a table, [{}]", table.name),
             Self::Tables(table) => format!("a list of tables, [[{}]]", table.name),
+            Self::Parameters => "a table of names with numbers, as k = \"2 N/m\"".to_string(),
         }
     }
 }

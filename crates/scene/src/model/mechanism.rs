@@ -3,9 +3,11 @@
 use nalgebra::Matrix3;
 use piola_document::{Mistake, Record};
 use piola_kinematics::{Inertia, KinematicsError, RigidBody};
+use piola_simulation::SimulationError;
 use piola_simulation::joints::{Coordinate, DEEPEST, Joint, JointMotion, Mechanism, Part, PartKind};
 
 use super::Builder;
+use super::forces::Surroundings;
 
 impl Builder<'_> {
     pub(super) fn mechanism(&mut self, scene: &Record, table: &Record) -> Option<Mechanism> {
@@ -33,7 +35,19 @@ impl Builder<'_> {
             );
         });
         let mechanism = mechanism.ok()?;
-        self.independent(scene, joints, &mechanism).then_some(mechanism)
+        if !self.independent(scene, joints, &mechanism) {
+            return None;
+        }
+        let surroundings = Surroundings::of(self, scene, &mechanism);
+        let (forces, constraints) = (self.forces(scene, &surroundings), self.constraints(scene, &surroundings));
+        let reactions = scene.record("output").and_then(|output| output.flag("reactions")).unwrap_or(false);
+        let (forces, constraints) = (forces?, constraints?);
+        let built = mechanism.with_forces(forces).and_then(|mechanism| mechanism.with_constraints(constraints));
+        let refused = |error: SimulationError| {
+            Mistake::new(table.place.clone(), error.to_string()).valid("forces and constraints of finite numbers")
+        };
+        let mechanism = built.map_err(|error| self.wrong(refused(error))).ok()?;
+        Some(Mechanism { reactions, ..mechanism })
     }
 
     fn joint(&mut self, record: &Record, names: &[&str]) -> Option<Joint> {

@@ -4,6 +4,8 @@
 //! apart, coordinates independent, reference files read.
 
 mod central;
+mod constraints;
+mod forces;
 mod gravitation;
 mod mechanism;
 mod reference;
@@ -173,6 +175,7 @@ impl<'d> Builder<'d> {
         let time = self.time(record, period);
         let integrator = self.integrator(record);
         let output = output(record, &name);
+        self.keeps_constraints(record);
         self.recordable(record, &output);
         let reference = self.reference(record, system.as_ref(), time);
         Some(Scene {
@@ -208,7 +211,7 @@ impl<'d> Builder<'d> {
         let table = record.record(kind.name)?;
         match kind.name {
             "gravity" => self.gravitation(record, table).map(System::Gravitation),
-            "mechanism" => self.mechanism(record, table).map(System::Mechanism),
+            "mechanism" => self.mechanism(record, table).map(|system| System::Mechanism(Box::new(system))),
             _ => self.central(record, table).map(System::Central),
         }
     }

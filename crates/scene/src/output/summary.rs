@@ -43,6 +43,9 @@ pub struct Summary {
     pub end_s: f64,
     /// Drift of the invariants.
     pub invariants: Value,
+    /// Works of the forces of a mechanism at the time reached, J, by name.
+    #[serde(rename = "works_J", skip_serializing_if = "Map::is_empty")]
+    pub works: Map<String, Value>,
     /// Errors against the reference.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reference: Option<Value>,
@@ -74,6 +77,7 @@ impl Summary {
             reached_s: run.time,
             end_s: plan.end,
             invariants: invariants(run),
+            works: works(run),
             reference: reference(run),
             skipped: plan.skipped.clone(),
         }
@@ -87,6 +91,11 @@ impl Summary {
         text.push('\n');
         text
     }
+}
+
+fn works(run: &Run) -> Map<String, Value> {
+    let last = run.history.works.last().into_iter().flatten();
+    run.history.work_names.iter().cloned().zip(last.map(|work| json!(work))).collect()
 }
 
 fn invariants(run: &Run) -> Value {

@@ -2,7 +2,7 @@
 
 use core::fmt::Write as _;
 
-use crate::run::{History, Run};
+use crate::run::{History, PartReaction, Run};
 
 /// `time_s,body,x_m,y_m,z_m` with velocities where there are any: a form that can be a reference again.
 pub(super) fn trajectory(history: &History) -> String {
@@ -25,13 +25,13 @@ pub(super) fn trajectory(history: &History) -> String {
 pub(super) fn invariants(history: &History) -> String {
     let mut text = String::from(
         "time_s,energy_J,relative_energy_drift,post_newtonian_energy_J,relative_post_newtonian_energy_drift,\
-         relative_momentum_drift,relative_angular_momentum_drift\n",
+         relative_momentum_drift,relative_angular_momentum_drift,work_J\n",
     );
     let show = |x: Option<f64>| x.map(|x| format!("{x:?}")).unwrap_or_default();
     for (record, drift) in history.invariants.iter().zip(history.drift_series()) {
         let _ = writeln!(
             text,
-            "{:?},{:?},{:?},{},{},{},{}",
+            "{:?},{:?},{:?},{},{},{},{},{:?}",
             record.time,
             record.energy,
             drift.energy,
@@ -39,6 +39,7 @@ pub(super) fn invariants(history: &History) -> String {
             show(drift.post_newtonian_energy),
             show(drift.momentum),
             show(drift.angular_momentum),
+            record.work,
         );
     }
     text
@@ -46,17 +47,43 @@ pub(super) fn invariants(history: &History) -> String {
 
 /// Coordinates of a mechanism and their rates.
 pub(super) fn coordinates(history: &History) -> String {
+    let rates = history.coordinate_names.iter().map(|name| format!("rate of {name}"));
+    let names: Vec<String> = history.coordinate_names.iter().cloned().chain(rates).collect();
+    columns(&history.times, &names, &history.coordinates)
+}
+
+/// Works of the forces of a mechanism since the start.
+pub(super) fn works(history: &History) -> String {
+    let names: Vec<String> = history.work_names.iter().map(|name| format!("work of {name} (J)")).collect();
+    columns(&history.times, &names, &history.works)
+}
+
+/// Forces of constraints: tensions, forces of loops, drives.
+pub(super) fn conditions(history: &History) -> String {
+    columns(&history.times, &history.condition_names, &history.conditions)
+}
+
+/// What holds the parts of a mechanism beside gravity.
+pub(super) fn reactions(history: &History) -> String {
+    let mut text = String::from("time_s,part,fx_N,fy_N,fz_N,mx_N_m,my_N_m,mz_N_m\n");
+    for (time, parts) in history.times.iter().zip(&history.reactions) {
+        for (name, PartReaction { force: [x, y, z], moment: [a, b, c] }) in history.names.iter().zip(parts) {
+            let _ = writeln!(text, "{time:?},{name},{x:?},{y:?},{z:?},{a:?},{b:?},{c:?}");
+        }
+    }
+    text
+}
+
+/// A row for each instant, with a column for each name.
+fn columns(times: &[f64], names: &[String], rows: &[Vec<f64>]) -> String {
     let mut text = String::from("time_s");
-    for name in &history.coordinate_names {
+    for name in names {
         let _ = write!(text, ",{name}");
     }
-    for name in &history.coordinate_names {
-        let _ = write!(text, ",rate of {name}");
-    }
     text.push('\n');
-    for (time, values) in history.times.iter().zip(&history.coordinates) {
+    for (time, row) in times.iter().zip(rows) {
         let _ = write!(text, "{time:?}");
-        for value in values {
+        for value in row {
             let _ = write!(text, ",{value:?}");
         }
         text.push('\n');

@@ -1,6 +1,7 @@
 //! The plan of a run: method and step, computed and skipped quantities, each with its reason.
 
 mod choice;
+mod mechanism;
 
 use core::fmt;
 
@@ -181,7 +182,8 @@ impl Plan {
                     self.skip("attitudes", "no rigid bodies");
                 }
                 self.skip("row of time in the metric", "the placement does not depend on time");
-                self.compute("energy", "conserved: at every recorded instant");
+                self.constraint_items(system, scene.time.start);
+                self.force_items(system);
                 self.skip("momentum and angular momentum", "not conserved: the ground holds the mechanism");
             }
             System::Central(system) => {
@@ -211,6 +213,9 @@ impl Plan {
             self.files.extend(["trajectory.csv", "invariants.csv"].map(str::to_string));
             if matches!(scene.system, System::Mechanism(_)) {
                 self.files.push("coordinates.csv".to_string());
+            }
+            if let System::Mechanism(system) = &scene.system {
+                self.files.extend(mechanism::tables(system).map(str::to_string));
             }
             if scene.reference.is_some() {
                 self.files.push("reference.csv".to_string());
@@ -275,7 +280,7 @@ fn describe(system: &System) -> String {
 fn equations(system: &System) -> usize {
     match system {
         System::Gravitation(system) => 6 * system.bodies.len(),
-        System::Mechanism(system) => 2 * system.coordinates.len(),
+        System::Mechanism(system) => 2 * system.coordinates.len() + mechanism::works(system),
         System::Central(system) => 6 * system.bodies.len(),
     }
 }

@@ -9,7 +9,7 @@ use piola_simulation::motion::{MotionRun, simulate};
 
 pub use comparison::{BodyErrors, ErrorAt, Errors};
 pub use piola_simulation::Outcome;
-pub use piola_simulation::motion::{Drift, DriftAt, Drifts, History, Invariants, Progress, Scaled};
+pub use piola_simulation::motion::{Drift, DriftAt, Drifts, History, Invariants, PartReaction, Progress, Scaled};
 
 use crate::model::Scene;
 use crate::plan::{self, Plan};
@@ -182,6 +182,18 @@ fn not_finite(history: &History) -> Option<String> {
                 record.time
             ));
         }
+    }
+    let tables = [("a work", &history.works), ("the force of a constraint", &history.conditions)];
+    for (what, rows) in tables {
+        let bad = |(t, row): (&f64, &Vec<f64>)| row.iter().find(|x| !x.is_finite()).map(|x| (*t, *x));
+        if let Some((t, value)) = history.times.iter().zip(rows).find_map(bad) {
+            return Some(format!("{what} is {value} at {t} s: it is not defined there"));
+        }
+    }
+    let held = history.times.iter().zip(&history.reactions);
+    let bad = |reaction: &PartReaction| !reaction.force.iter().chain(&reaction.moment).all(|x| x.is_finite());
+    if let Some((t, _)) = held.into_iter().find(|(_, parts)| parts.iter().any(bad)) {
+        return Some(format!("a reaction is not defined at {t} s"));
     }
     let places = history.times.iter().zip(&history.positions);
     places.flat_map(|(t, places)| places.iter().map(move |place| (t, place))).find_map(|(t, place)| {

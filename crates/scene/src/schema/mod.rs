@@ -4,6 +4,7 @@
 //! for editors ([`json_schema`]) and the tables of the scene reference ([`markdown`]) all read it.
 
 mod boxes;
+mod forces;
 mod robot;
 mod solids;
 mod studies;

@@ -6,7 +6,7 @@ use piola_document::units::Dimension as D;
 use super::Absent::{Default, Optional, Required};
 use super::Kind::{Flag, Name, Path, Text};
 use super::Range::{Any, Fraction, NotNegative, Positive};
-use super::{Kind, SceneKind, Word, boxes, quantity, robot, solids, studies, word};
+use super::{Kind, SceneKind, Word, boxes, forces, quantity, robot, solids, studies, word};
 
 const fn vector(dimension: D) -> Kind {
     Kind::Numbers(dimension, &[3])
@@ -15,7 +15,7 @@ const fn vector(dimension: D) -> Kind {
 /// The kinds of scenes.
 pub static SCENE_KINDS: [SceneKind; 12] = [
     motion("gravity", &["body"]),
-    motion("mechanism", &["joint", "particle", "rigid_body"]),
+    motion("mechanism", &["joint", "particle", "rigid_body", "force", "constraint", "parameters"]),
     motion("central", &["body"]),
     study("wavefront", &["medium"]),
     study("room", &[]),
@@ -91,6 +91,12 @@ table! {
         particle: Kind::Tables(&PARTICLE), Optional;
         /// Rigid bodies of a `[mechanism]`.
         rigid_body: Kind::Tables(&RIGID_BODY), Optional;
+        /// What acts on a `[mechanism]` besides gravity.
+        force: Kind::Tables(&forces::FORCE), Optional;
+        /// What holds a `[mechanism]` besides its joints.
+        constraint: Kind::Tables(&forces::CONSTRAINT), Optional;
+        /// Numbers with names for expressions; `--set parameters.NAME=VALUE` changes one.
+        parameters: Kind::Parameters, Optional;
         /// The parts of the medium of a `[wavefront]`.
         medium: Kind::Tables(&studies::MEDIUM), Optional;
         /// The span of time, which every motion has.
@@ -125,8 +131,8 @@ table! {
 }
 
 table! {
-    /// Particles and rigid bodies on a tree of joints, without friction. The ground is named `ground`; z is up when
-    /// gravity says so.
+    /// Particles and rigid bodies on a tree of joints. The ground is named `ground`; z is up when gravity says so. Besides
+    /// gravity only what the `[[force]]` tables say acts on it.
     static MECHANISM = "mechanism" {
         /// Uniform acceleration of gravity.
         gravity: vector(D::ACCELERATION), Default("[0.0, 0.0, -9.80665]");
@@ -301,6 +307,9 @@ table! {
         tables: Flag, Default("true");
         /// Whether SVG figures are drawn.
         figures: Flag, Default("true");
+        /// Whether the forces and moments that hold the parts of a `[mechanism]`, and the forces of its constraints and drives,
+        /// are recorded.
+        reactions: Flag, Default("false");
     }
 }
 

@@ -3,8 +3,10 @@
 mod bad_input;
 #[cfg(feature = "spectral")]
 mod boxes;
+mod constraints;
 #[cfg(all(feature = "solutions", feature = "spectral"))]
 mod figures;
+mod forces;
 mod plan;
 mod reference;
 #[cfg(feature = "robots")]

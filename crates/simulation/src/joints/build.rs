@@ -131,6 +131,9 @@ impl Mechanism {
             gravity,
             position: Vec::new(),
             velocity: Vec::new(),
+            forces: Vec::new(),
+            constraints: Vec::new(),
+            reactions: false,
         };
         // Coordinates are numbered as the joints are written.
         for draft in joints {
@@ -141,8 +144,8 @@ impl Mechanism {
                 mechanism.position.push(coordinate.position);
                 mechanism.velocity.push(coordinate.velocity);
             }
-            let (offset, motion) = (draft.offset, draft.motion);
-            mechanism.tree.joints.push(Node { offset, motion, first, children: Vec::new(), parts: Vec::new() });
+            let (parent, offset, motion) = (draft.parent, draft.offset, draft.motion);
+            mechanism.tree.joints.push(Node { parent, offset, motion, first, children: Vec::new(), parts: Vec::new() });
         }
         mechanism.tree.freedom = mechanism.position.len();
         for joint in order {
@@ -204,7 +207,7 @@ fn check(joints: &[Joint], parts: &[Part], gravity: [f64; 3]) -> Result<(), Simu
     finite("velocity", coordinates().map(|coordinate| coordinate.velocity))
 }
 
-fn finite(quantity: &'static str, values: impl IntoIterator<Item = f64>) -> Result<(), SimulationError> {
+pub(crate) fn finite(quantity: &'static str, values: impl IntoIterator<Item = f64>) -> Result<(), SimulationError> {
     match values.into_iter().enumerate().find(|(_, value)| !value.is_finite()) {
         Some((index, value)) => Err(SimulationError::NotFinite { quantity, index, value }),
         None => Ok(()),

@@ -1,5 +1,6 @@
 //! Trees of joints with particles and rigid bodies: a placement map made of data.
 
+mod anchor;
 mod build;
 mod independence;
 
@@ -7,6 +8,11 @@ use nalgebra::Vector3;
 use piola_kinematics::{Attitude, Holonomic, Placement};
 use piola_numerics::Real;
 
+use crate::constraints::Constraint;
+use crate::forces::Force;
+
+pub use anchor::Anchor;
+pub(crate) use build::finite;
 pub use build::{Coordinate, DEEPEST, Joint, JointMotion, Part, PartKind};
 
 /// A mechanism: its joints, the names of its parts and coordinates, its state at the start.
@@ -40,6 +46,12 @@ pub struct Mechanism {
     pub position: Vec<f64>,
     /// Their rates at the start.
     pub velocity: Vec<f64>,
+    /// What acts besides gravity; [`with_forces`](Self::with_forces) checks and sets it.
+    pub forces: Vec<Force>,
+    /// What holds it; [`with_constraints`](Self::with_constraints) checks and sets it.
+    pub constraints: Vec<Constraint>,
+    /// Whether reactions are recorded.
+    pub reactions: bool,
 }
 
 /// A part with its mass.
@@ -75,6 +87,7 @@ pub struct JointTree {
 
 #[derive(Debug, Clone)]
 struct Node {
+    parent: Option<usize>,
     offset: [f64; 3],
     motion: JointMotion,
     /// Index of its first coordinate.
@@ -113,44 +126,72 @@ impl JointTree {
     fn place_joint<T: Real>(
         &self,
         joint: &Node,
-        origin: Vector3<T>,
-        attitude: Attitude<T>,
-        q: &[T],
+        below: &Frame<T>,
+        q: &impl Fn(usize) -> T,
         bodies: &mut impl Placement<T>,
     ) {
-        let q_j = &q[joint.first..];
-        let mut origin = origin + attitude.to_space(&constant(joint.offset));
-        let mut attitude = attitude;
-        match &joint.motion {
-            JointMotion::Fixed => {}
-            JointMotion::Revolute(axis) => attitude = attitude.product(about(*axis, q_j[0])),
-            JointMotion::Prismatic(axis) => origin += attitude.to_space(&constant(*axis).map(|x: T| x * q_j[0])),
-            JointMotion::Universal(first, second) => {
-                attitude = attitude.product(about(*first, q_j[0])).product(about(*second, q_j[1]));
-            }
-            JointMotion::Spherical => attitude = attitude.product(Attitude::from_euler_zyz([q_j[0], q_j[1], q_j[2]])),
-            JointMotion::Free => {
-                origin += attitude.to_space(&Vector3::new(q_j[0], q_j[1], q_j[2]));
-                attitude = attitude.product(Attitude::from_euler_zyz([q_j[3], q_j[4], q_j[5]]));
-            }
-        }
+        let frame = joint.frame(below, q);
         for part in &joint.parts {
-            let centre = origin + attitude.to_space(&constant(part.at));
+            let centre = frame.point(part.at);
             match &part.kind {
                 PartKind::Particle(mass) => bodies.particle(*mass, centre),
-                PartKind::Body(body) => bodies.body(body, centre, attitude),
+                PartKind::Body(body) => bodies.body(body, centre, frame.attitude),
             }
         }
         for &child in &joint.children {
-            self.place_joint(&self.joints[child], origin, attitude, q, bodies);
+            self.place_joint(&self.joints[child], &frame, q, bodies);
         }
+    }
+}
+
+/// A frame: its origin and its attitude in space.
+struct Frame<T: Real> {
+    origin: Vector3<T>,
+    attitude: Attitude<T>,
+}
+
+impl<T: Real> Frame<T> {
+    fn ground() -> Self {
+        Self { origin: Vector3::zeros(), attitude: Attitude::identity() }
+    }
+
+    /// The place in space of a point of the frame.
+    fn point(&self, at: [f64; 3]) -> Vector3<T> {
+        self.origin + self.attitude.to_space(&constant(at))
+    }
+}
+
+impl Node {
+    /// The frame that the joint carries, on the frame of its parent.
+    fn frame<T: Real>(&self, below: &Frame<T>, q: &impl Fn(usize) -> T) -> Frame<T> {
+        let q_j = |i: usize| q(self.first + i);
+        let mut origin = below.point(self.offset);
+        let mut attitude = below.attitude;
+        match &self.motion {
+            JointMotion::Fixed => {}
+            JointMotion::Revolute(axis) => attitude = attitude.product(about(*axis, q_j(0))),
+            JointMotion::Prismatic(axis) => {
+                let shift = q_j(0);
+                origin += attitude.to_space(&constant(*axis).map(|x: T| x * shift));
+            }
+            JointMotion::Universal(first, second) => {
+                attitude = attitude.product(about(*first, q_j(0))).product(about(*second, q_j(1)));
+            }
+            JointMotion::Spherical => attitude = attitude.product(Attitude::from_euler_zyz([q_j(0), q_j(1), q_j(2)])),
+            JointMotion::Free => {
+                origin += attitude.to_space(&Vector3::new(q_j(0), q_j(1), q_j(2)));
+                attitude = attitude.product(Attitude::from_euler_zyz([q_j(3), q_j(4), q_j(5)]));
+            }
+        }
+        Frame { origin, attitude }
     }
 }
 
 impl Holonomic for JointTree {
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+        let ground = Frame::ground();
         for &root in &self.roots {
-            self.place_joint(&self.joints[root], Vector3::zeros(), Attitude::identity(), q, bodies);
+            self.place_joint(&self.joints[root], &ground, &|i| q[i], bodies);
         }
     }
 }

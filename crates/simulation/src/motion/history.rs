@@ -19,9 +19,31 @@ pub struct History {
     pub coordinate_names: Vec<String>,
     /// Coordinates and then their rates, for each instant; empty unless a mechanism.
     pub coordinates: Vec<Vec<f64>>,
+    /// Names of the forces of a mechanism that take energy or give it.
+    pub work_names: Vec<String>,
+    /// Their works since the start, J, for each instant; empty without such forces.
+    pub works: Vec<Vec<f64>>,
+    /// Names of the forces of constraints, each with its unit: tensions, forces of loops, drives.
+    pub condition_names: Vec<String>,
+    /// These forces for each instant; empty unless reactions are asked for.
+    pub conditions: Vec<Vec<f64>>,
+    /// Forces and moments on the parts, for each instant and part; empty unless reactions are asked for.
+    pub reactions: Vec<Vec<PartReaction>>,
     /// Invariants. With an adaptive method they stand at the end of the step that an instant falls into, where the state is
     /// best known.
     pub invariants: Vec<Invariants>,
+}
+
+/// What holds a part of a mechanism beside gravity: m ẍ − m g, by its joint, by forces and by constraints together.
+///
+/// # Example
+/// See [`simulate`](super::simulate).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PartReaction {
+    /// Force, N, in space.
+    pub force: [f64; 3],
+    /// Moment about the centre of mass, N m, in space; zero of a particle.
+    pub moment: [f64; 3],
 }
 
 /// A vector with the magnitude that its changes are compared with.
@@ -37,6 +59,8 @@ pub struct Invariants {
     pub time: f64,
     /// Kinetic and potential energy, J.
     pub energy: f64,
+    /// The work that forces, dampers and drives have brought in since the start, J: `energy` − `work` is what is conserved.
+    pub work: f64,
     /// A scale of energy besides the first energy: the kinetic energy in a mechanism, whose potential has an arbitrary zero; 0
     /// otherwise.
     pub energy_scale: f64,
@@ -68,7 +92,8 @@ pub struct Drift {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Drifts {
-    /// |E − E₀| relative to |E₀| (in a mechanism to the largest of |E₀| and the kinetic energy).
+    /// |E − W − E₀| relative to |E₀| (in a mechanism to the largest of |E₀| and the kinetic energy), W being the work of its
+    /// forces.
     pub energy: Option<Drift>,
     /// Drift of the energy with its post-Newtonian part, likewise.
     pub post_newtonian_energy: Option<Drift>,
@@ -113,7 +138,7 @@ impl History {
             .iter()
             .map(|record| DriftAt {
                 time: record.time,
-                energy: relative((record.energy - first.energy).abs(), energy_scale),
+                energy: relative((record.energy - record.work - first.energy).abs(), energy_scale),
                 post_newtonian_energy: record
                     .post_newtonian_energy
                     .zip(first.post_newtonian_energy)

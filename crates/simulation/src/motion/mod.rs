@@ -4,10 +4,11 @@
 //! |---|---|---|
 //! | [`Gravitation`] | ẍᵢ = Σⱼ Gmⱼ (xⱼ − xᵢ)/(rᵢⱼ² + ε²)^(3/2), with a post-Newtonian term on request | energy, momentum, angular momentum |
 //! | [`Central`] | ẍᵢ = −Gm xᵢ/rᵢ³ | energy, angular momentum |
-//! | [`Mechanism`](crate::joints::Mechanism) | Lagrange's of its tree of joints; Hamilton's with [`Method::GaussLegendre`] | energy |
+//! | [`Mechanism`](crate::joints::Mechanism) | Lagrange's of its tree of joints; Hamilton's with [`Method::GaussLegendre`] | energy less the works of its forces |
 
 mod drive;
 mod history;
+mod mechanism;
 mod method;
 mod system;
 mod systems;
@@ -17,7 +18,7 @@ use core::ops::ControlFlow;
 
 use piola_integrators::{Ending, Report};
 
-pub use history::{Drift, DriftAt, Drifts, History, Invariants, Scaled};
+pub use history::{Drift, DriftAt, Drifts, History, Invariants, PartReaction, Scaled};
 pub use method::Method;
 pub use system::{Central, Gravitation, MassPoint, NEWTONIAN_CONSTANT, Orbiter, PostNewtonian, System};
 pub use timetable::{TimeSpan, Timetable};
@@ -96,7 +97,7 @@ pub fn simulate(
     let mut driver = Driver::new(names, timetable, observer);
     let result = match system {
         System::Gravitation(system) => systems::gravitation(system, method, &mut driver),
-        System::Mechanism(system) => systems::mechanism(system, method, &mut driver),
+        System::Mechanism(system) => mechanism::mechanism(system, method, &mut driver),
         System::Central(system) => systems::central(system, method, &mut driver),
     };
     let (history, report, time) = driver.finish();

@@ -13,7 +13,7 @@ pub enum System {
     /// Bodies that attract each other.
     Gravitation(Gravitation),
     /// Particles and rigid bodies on a tree of joints.
-    Mechanism(Mechanism),
+    Mechanism(Box<Mechanism>),
     /// Bodies about a fixed centre.
     Central(Central),
 }

@@ -2,18 +2,13 @@
 
 use core::convert::Infallible;
 
-use nalgebra::Vector3;
 use piola_gravitation as gravitation;
 use piola_gravitation::{Gravitation, SPEED_OF_LIGHT, attraction};
 use piola_integrators::{Composition, Field, SecondOrder, Separable, State};
-use piola_kinematics::{Attitude, Holonomic, Placement, RigidBody};
-use piola_lagrangian::{Lagrangian, Workspace};
 use piola_numerics::sums::CompensatedSum;
 
 use super::drive::{Driver, Reading};
 use super::{History, Invariants, Method, NEWTONIAN_CONSTANT, system as model};
-use crate::SimulationError;
-use crate::joints::{JointTree, Mechanism};
 
 /// Bodies that attract each other.
 pub(super) fn gravitation(system: &model::Gravitation, method: Method, driver: &mut Driver) -> Result<(), String> {
@@ -59,6 +54,7 @@ impl Reading for Gravitation {
         Invariants {
             time,
             energy: mass(sums.energy),
+            work: 0.0,
             energy_scale: 0.0,
             post_newtonian_energy: self.post_newtonian().map(|_| mass(sums.post_newtonian_energy)),
             momentum: Some((sums.momentum.map(mass), mass(sums.momentum_scale))),
@@ -176,99 +172,11 @@ impl Reading for CentralReading<'_> {
         Invariants {
             time,
             energy: energy.value(),
+            work: 0.0,
             energy_scale: 0.0,
             post_newtonian_energy: None,
             momentum: None,
             angular_momentum: Some((moment.map(CompensatedSum::value), scale.value())),
         }
-    }
-}
-
-/// Particles and rigid bodies on joints.
-pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver) -> Result<(), String> {
-    let n = system.tree.freedom();
-    for (quantity, values) in [("position", &system.position), ("velocity", &system.velocity)] {
-        if values.len() != n {
-            return Err(SimulationError::WrongLength { quantity, expected: n, found: values.len() }.to_string());
-        }
-    }
-    driver.history().coordinate_names.clone_from(&system.coordinates);
-    let lagrangian = Lagrangian::of(system.tree.clone()).with_uniform_gravity(system.gravity);
-    let canonical = matches!(method, Method::GaussLegendre { .. });
-    let mut start = system.position.clone();
-    if canonical {
-        let momenta = lagrangian.momenta(&system.position, &system.velocity, driver.start());
-        start.extend(momenta.map_err(|error| error.to_string())?.iter());
-    } else {
-        start.extend(&system.velocity);
-    }
-    let mut state = State::new(driver.start(), start).map_err(|error| error.to_string())?;
-    let mut reading =
-        MechanismReading { lagrangian: &lagrangian, canonical, work: Workspace::default(), state: vec![0.0; 2 * n] };
-    if canonical {
-        driver.field(method, &mut lagrangian.canonical_motion(n), &mut state, &mut reading)
-    } else {
-        driver.field(method, &mut lagrangian.motion(n), &mut state, &mut reading)
-    }
-}
-
-struct MechanismReading<'l> {
-    lagrangian: &'l Lagrangian<JointTree>,
-    /// Whether states hold momenta instead of velocities.
-    canonical: bool,
-    work: Workspace,
-    /// (q, q̇).
-    state: Vec<f64>,
-}
-
-impl MechanismReading<'_> {
-    fn read(&mut self, time: f64, values: &[f64]) {
-        let n = values.len() / 2;
-        self.state.copy_from_slice(values);
-        if self.canonical {
-            let (q, p) = values.split_at(n);
-            if self.lagrangian.velocities_into(&mut self.work, q, p, time, &mut self.state[n..]).is_err() {
-                self.state[n..].fill(f64::NAN);
-            }
-        }
-    }
-}
-
-impl Reading for MechanismReading<'_> {
-    fn record(&mut self, time: f64, values: &[f64], history: &mut History) {
-        self.read(time, values);
-        let mut places = Places(Vec::new());
-        self.lagrangian.system().place(&self.state[..values.len() / 2], time, &mut places);
-        history.times.push(time);
-        history.positions.push(places.0);
-        history.coordinates.push(self.state.clone());
-    }
-
-    fn invariants(&mut self, time: f64, values: &[f64]) -> Invariants {
-        self.read(time, values);
-        let (q, v) = self.state.split_at(values.len() / 2);
-        let (energy, scale) = match self.lagrangian.energies_with(&mut self.work, q, v, time) {
-            Ok(energies) => (energies.total(), energies.kinetic),
-            Err(_) => (f64::NAN, f64::NAN),
-        };
-        Invariants {
-            time,
-            energy,
-            energy_scale: scale,
-            post_newtonian_energy: None,
-            momentum: None,
-            angular_momentum: None,
-        }
-    }
-}
-
-struct Places(Vec<[f64; 3]>);
-
-impl Placement<f64> for Places {
-    fn particle(&mut self, _mass: f64, position: Vector3<f64>) {
-        self.0.push(position.into());
-    }
-    fn body(&mut self, _body: &RigidBody, centre: Vector3<f64>, _attitude: Attitude<f64>) {
-        self.0.push(centre.into());
     }
 }

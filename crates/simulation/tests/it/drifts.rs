@@ -5,6 +5,7 @@ use piola_testkit::{Tol, assert_close};
 
 fn record(time: f64, energy: f64, energy_scale: f64, momentum: Scaled) -> Invariants {
     Invariants {
+        work: 0.0,
         time,
         energy,
         energy_scale,

@@ -1,8 +1,16 @@
 //! Tests of simulated motions and wave fronts: closed forms, conservation, and the definitions of what is recorded.
 
+mod constraints;
 mod drifts;
+mod expressions;
+mod forces;
 mod fronts;
 mod mechanism;
 mod media;
 mod orbits;
 mod timetable;
+
+use piola_testkit::CountingAllocator;
+
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;

@@ -53,7 +53,7 @@ fn parts_of_a_crane_are_where_its_joints_carry_them() {
     ];
     let (on_mast, on_arm, on_hook) = ([0.5, -0.5, 0.25], [0.25, 1.5, -2.0], [0.75, 0.5, -1.0]);
     let parts = vec![particle(0, 1.0, on_mast), particle(1, 2.0, on_arm), particle(2, 3.0, on_hook)];
-    let system = System::Mechanism(mechanism(joints, parts));
+    let system = System::Mechanism(Box::new(mechanism(joints, parts)));
     let method = Method::GaussLegendre { order: Order::Four, step: 0.1 };
     let timetable = Timetable::new(TimeSpan { start: 0.0, end: 1.0 }, 2, &[]);
     let run = simulate(&system, method, &timetable, &mut |_| ControlFlow::Break(()));

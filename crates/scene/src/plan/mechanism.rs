@@ -1,0 +1,84 @@
+//! What the plan says of forces and constraints of a mechanism.
+
+use piola_simulation::constraints::{Constraint, ConstraintKind};
+use piola_simulation::forces::Force;
+
+use super::Plan;
+use crate::model::Mechanism;
+
+/// The number of works that are integrated with the motion.
+pub(super) fn works(system: &Mechanism) -> usize {
+    let driven = |constraint: &Constraint| matches!(constraint.kind, ConstraintKind::Prescribed { .. });
+    system.forces.iter().filter(|force| force.kind.works()).count() + usize::from(system.constraints.iter().any(driven))
+}
+
+/// The tables of works and reactions.
+pub(super) fn tables(system: &Mechanism) -> impl Iterator<Item = &'static str> {
+    let asked = system.reactions;
+    let tables = [
+        ("works.csv", 0 < works(system)),
+        ("reactions.csv", asked),
+        ("constraints.csv", asked && !system.constraints.is_empty()),
+    ];
+    tables.into_iter().filter(|(_, written)| *written).map(|(name, _)| name)
+}
+
+impl Plan {
+    pub(super) fn force_items(&mut self, system: &Mechanism) {
+        for Force { name, kind } in &system.forces {
+            let what = match (kind.stores(), kind.works()) {
+                (true, true) => "stores energy, and works: its power is integrated with the motion",
+                (true, false) => "stores energy: by exact derivatives",
+                (false, true) => "works: its power is integrated with the motion",
+                (false, false) => {
+                    self.skip(name, "neither stiffness nor damping");
+                    continue;
+                }
+            };
+            self.compute(&format!("force `{name}`"), what);
+        }
+        if system.forces.is_empty() {
+            self.skip("forces besides gravity", "no [[force]]");
+        }
+        if 0 < works(system) {
+            self.compute("energy less work", "conserved: at every recorded instant");
+        } else {
+            self.compute("energy", "conserved: at every recorded instant");
+            self.skip("work", "nothing takes energy or gives it");
+        }
+    }
+
+    /// What holds the mechanism, and how far its start must move for that.
+    pub(super) fn constraint_items(&mut self, system: &Mechanism, start: f64) {
+        for Constraint { name, kind } in &system.constraints {
+            let what = match kind {
+                ConstraintKind::Distance { length, .. } => format!("a distance of {length} m, by a multiplier"),
+                ConstraintKind::Loop { .. } => "a closed loop, by three multipliers".to_string(),
+                ConstraintKind::Prescribed { .. } => {
+                    "a prescribed motion, by a multiplier: its drive works".to_string()
+                }
+            };
+            self.compute(&format!("constraint `{name}`"), what);
+        }
+        if system.constraints.is_empty() {
+            self.skip("multipliers", "no [[constraint]]");
+        } else {
+            let constrained = system.constrained();
+            let why = match constrained.assemble(&system.position, &system.velocity, start) {
+                Err(error) => format!("no start is found: {error}"),
+                Ok(closed) => {
+                    let moves = closed.coordinates.iter().zip(&system.position).map(|(a, b)| (a - b).abs());
+                    let free = constrained.degrees_of_freedom(&closed.coordinates, start).unwrap_or_default();
+                    let most = moves.fold(0.0, f64::max);
+                    format!("coordinates move by at most {most:.1e} to satisfy it; {free} degrees of freedom are left")
+                }
+            };
+            self.compute("start under constraints", why);
+        }
+        if system.reactions {
+            self.compute("reactions", "output.reactions = true: at every recorded instant");
+        } else {
+            self.skip("reactions", "output.reactions = false");
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! The equations of a mechanism with the works of its forces, and the reading of its states.
+
+use nalgebra::Vector3;
+use piola_integrators::{Field, State};
+use piola_kinematics::{Attitude, Holonomic, Placement, RigidBody};
+use piola_lagrangian::{LagrangianError, Reaction, Workspace, constraints};
+
+use super::drive::{Driver, Reading};
+use super::{History, Invariants, Method, PartReaction};
+use crate::SimulationError;
+use crate::constraints::ConstrainedMechanism;
+use crate::forces::{MechanismLagrangian, working};
+use crate::joints::Mechanism;
+
+/// Particles and rigid bodies on joints.
+pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver) -> Result<(), String> {
+    let n = system.tree.freedom();
+    for (quantity, values) in [("position", &system.position), ("velocity", &system.velocity)] {
+        if values.len() != n {
+            return Err(SimulationError::WrongLength { quantity, expected: n, found: values.len() }.to_string());
+        }
+    }
+    let working = working(&system.forces);
+    let history = driver.history();
+    history.coordinate_names.clone_from(&system.coordinates);
+    history.work_names = working.iter().map(|&i| system.forces[i].name.clone()).collect();
+    if system.is_driven() {
+        history.work_names.push("prescribed motion".to_string());
+    }
+    let works = history.work_names.len();
+    if system.reactions {
+        history.condition_names = system.condition_names();
+    }
+    let lagrangian = system.lagrangian();
+    let constrained = (!system.constraints.is_empty()).then(|| system.constrained());
+    let canonical = matches!(method, Method::GaussLegendre { .. });
+    let (mut position, mut velocity) = (system.position.clone(), system.velocity.clone());
+    if let Some(constrained) = &constrained {
+        if canonical {
+            return Err(SimulationError::ConstraintsNeedProjection { method: method.to_string() }.to_string());
+        }
+        let start = constrained.assemble(&position, &velocity, driver.start()).map_err(|error| error.to_string())?;
+        (position, velocity) = (start.coordinates, start.velocities);
+    } else if canonical {
+        let momenta = lagrangian.momenta(&position, &velocity, driver.start());
+        velocity = momenta.map_err(|error| error.to_string())?.as_slice().to_vec();
+    }
+    let mut start = [position, velocity].concat();
+    start.resize(2 * n + works, 0.0);
+    let mut state = State::new(driver.start(), start).map_err(|error| error.to_string())?;
+    let mut reading = MechanismReading {
+        system,
+        lagrangian: &lagrangian,
+        constrained: constrained.as_ref(),
+        canonical,
+        work: Workspace::default(),
+        state: vec![0.0; 2 * n],
+    };
+    let power =
+        Power { system, lagrangian: &lagrangian, working: &working, work: Workspace::default(), forces: vec![0.0; n] };
+    match &constrained {
+        Some(constrained) => {
+            driver.field(method, &mut WithWork { field: constrained.motion(n), power, works }, &mut state, &mut reading)
+        }
+        None if canonical => {
+            let field = &mut WithWork { field: lagrangian.canonical_motion(n), power, works };
+            driver.field(method, field, &mut state, &mut reading)
+        }
+        None => {
+            driver.field(method, &mut WithWork { field: lagrangian.motion(n), power, works }, &mut state, &mut reading)
+        }
+    }
+}
+
+/// A motion y = (q, q̇) or (q, p) with works after it: Ẇ = P.
+struct WithWork<'m, F> {
+    field: F,
+    power: Power<'m>,
+    works: usize,
+}
+
+/// The powers of forces, and of the drives of prescribed motions together.
+struct Power<'m> {
+    system: &'m Mechanism,
+    lagrangian: &'m MechanismLagrangian<'m>,
+    working: &'m [usize],
+    work: Workspace,
+    forces: Vec<f64>,
+}
+
+impl Power<'_> {
+    fn write(
+        &mut self,
+        q: &[f64],
+        (v, a): (&[f64], &[f64]),
+        t: f64,
+        powers: &mut [f64],
+    ) -> Result<(), LagrangianError> {
+        for (power, &force) in powers.iter_mut().zip(self.working) {
+            *power = self.system.forces[force].kind.power(&self.system.tree, q, v, t);
+        }
+        if let [power] = &mut powers[self.working.len()..] {
+            // All constraints together: those that do not move do no work. (M q̈ − f)·q̇
+            self.lagrangian.driving_forces_into(&mut self.work, q, v, a, t, &mut self.forces)?;
+            *power = self.forces.iter().zip(v).map(|(force, v)| force * v).sum();
+        }
+        Ok(())
+    }
+}
+
+impl<F: Field<Error = LagrangianError>> Field for WithWork<'_, F> {
+    type Error = LagrangianError;
+    fn dimension(&self) -> usize {
+        self.field.dimension() + self.works
+    }
+    fn is_second_order(&self) -> bool {
+        self.works == 0 && self.field.is_second_order()
+    }
+    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), LagrangianError> {
+        let (motion, powers) = rate.split_at_mut(self.field.dimension());
+        let state = &y[..motion.len()];
+        self.field.rate(t, state, motion)?;
+        if powers.is_empty() {
+            return Ok(());
+        }
+        let n = motion.len() / 2;
+        self.power.write(&state[..n], motion.split_at(n), t, powers)
+    }
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), LagrangianError> {
+        let dimension = self.field.dimension();
+        self.field.project(t, &mut y[..dimension])
+    }
+    /// Works are as smooth as the motion and do not act back on it: its steps serve for them.
+    fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
+        let dimension = self.field.dimension();
+        self.field.magnitudes(&y[..dimension], &mut magnitudes[..dimension]);
+        magnitudes[dimension..].fill(f64::MAX);
+    }
+}
+
+struct MechanismReading<'l> {
+    system: &'l Mechanism,
+    lagrangian: &'l MechanismLagrangian<'l>,
+    constrained: Option<&'l ConstrainedMechanism<'l>>,
+    /// Whether states hold momenta instead of velocities.
+    canonical: bool,
+    work: Workspace,
+    /// (q, q̇).
+    state: Vec<f64>,
+}
+
+impl MechanismReading<'_> {
+    fn read(&mut self, time: f64, values: &[f64]) {
+        let motion = &values[..self.state.len()];
+        self.state.copy_from_slice(motion);
+        let (q, v) = motion.split_at(motion.len() / 2);
+        if self.canonical {
+            let velocities = &mut self.state[q.len()..];
+            if self.lagrangian.velocities_into(&mut self.work, q, v, time, velocities).is_err() {
+                velocities.fill(f64::NAN);
+            }
+        }
+        // Between the ends of steps a state satisfies constraints to the tolerance alone.
+        if let Some(Ok(closed)) = self.constrained.map(|constrained| constrained.assemble(q, v, time)) {
+            self.state.clear();
+            self.state.extend(closed.coordinates.iter().chain(&closed.velocities));
+        }
+    }
+
+    /// What holds the parts and the forces of constraints, at the state that was read; not numbers where they are not found.
+    fn hold(&mut self, time: f64, history: &mut History) {
+        let (q, v) = self.state.split_at(self.state.len() / 2);
+        let mut acceleration = vec![0.0; q.len()];
+        let mut conditions = vec![0.0; history.condition_names.len()];
+        let solved = match self.constrained {
+            Some(constrained) => {
+                let work = &mut constraints::Workspace::default();
+                constrained.solve_into(work, q, v, time, &mut acceleration, &mut conditions)
+            }
+            None => self.lagrangian.acceleration_into(&mut self.work, q, v, time, &mut acceleration),
+        };
+        if solved.is_err() {
+            acceleration.fill(f64::NAN);
+            conditions.fill(f64::NAN);
+        }
+        self.system.forces_of_conditions(&mut conditions);
+        let mut held = vec![Reaction::none(); self.system.parts.len()];
+        let found =
+            self.lagrangian.reactions_at_acceleration_into(&mut self.work, q, v, &acceleration, time, &mut held);
+        let unknown = PartReaction { force: [f64::NAN; 3], moment: [f64::NAN; 3] };
+        let told = |reaction: &Reaction| match found {
+            Ok(()) => PartReaction { force: (*reaction.force()).into(), moment: reaction.moment_in_space().into() },
+            Err(_) => unknown,
+        };
+        history.reactions.push(held.iter().map(told).collect());
+        history.conditions.push(conditions);
+    }
+}
+
+impl Reading for MechanismReading<'_> {
+    fn record(&mut self, time: f64, values: &[f64], history: &mut History) {
+        self.read(time, values);
+        let mut places = Places(Vec::new());
+        self.lagrangian.system().place(&self.state[..self.state.len() / 2], time, &mut places);
+        history.times.push(time);
+        history.positions.push(places.0);
+        history.coordinates.push(self.state.clone());
+        if self.state.len() < values.len() {
+            history.works.push(values[self.state.len()..].to_vec());
+        }
+        if self.system.reactions {
+            self.hold(time, history);
+        }
+    }
+
+    fn invariants(&mut self, time: f64, values: &[f64]) -> Invariants {
+        self.read(time, values);
+        let (q, v) = self.state.split_at(self.state.len() / 2);
+        let (energy, scale) = match self.lagrangian.energies_with(&mut self.work, q, v, time) {
+            Ok(energies) => (energies.total(), energies.kinetic),
+            Err(_) => (f64::NAN, f64::NAN),
+        };
+        Invariants {
+            time,
+            energy,
+            work: values[self.state.len()..].iter().sum(),
+            energy_scale: scale,
+            post_newtonian_energy: None,
+            momentum: None,
+            angular_momentum: None,
+        }
+    }
+}
+
+struct Places(Vec<[f64; 3]>);
+
+impl Placement<f64> for Places {
+    fn particle(&mut self, _mass: f64, position: Vector3<f64>) {
+        self.0.push(position.into());
+    }
+    fn body(&mut self, _body: &RigidBody, centre: Vector3<f64>, _attitude: Attitude<f64>) {
+        self.0.push(centre.into());
+    }
+}
