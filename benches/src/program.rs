@@ -11,8 +11,8 @@ use crate::advice::{self, Entry};
 use crate::chain::Chain;
 use crate::figure::figure;
 use crate::methods::{
-    at_rest, closed_form, closed_form_of_top, on_the_group, quaternion_gauss_legendre_16, radau_iia, universal_variables,
-    wisdom_holman,
+    at_rest, closed_form, closed_form_of_top, on_the_group, quaternion_gauss_legendre_16, radau_iia,
+    universal_variables, wisdom_holman,
 };
 use crate::problems::{self, Accelerations, Equations, Force, Problem, SpringChain};
 use crate::work_precision::{

@@ -64,6 +64,7 @@ pub mod internal {
     pub use crate::field::{DIRECTIONS, largest_lane, magnitudes_of_blocks};
     pub use crate::nystrom::NystromCoefficients;
     pub use crate::state::{
-        check_finite, check_longest, check_run, check_step, check_sums, compensated_add, equal_steps,
+        carry_of_time, check_finite, check_longest, check_run, check_step, check_sums, compensated_add, equal_steps,
+        state_of,
     };
 }

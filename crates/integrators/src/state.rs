@@ -408,6 +408,18 @@ fn check_time<E>(quantity: &'static str, value: f64) -> Result<(), IntegratorsEr
     if value.is_finite() { Ok(()) } else { Err(IntegratorsError::NotFinite { quantity, index: 0, value, t: None }) }
 }
 
+/// What rounding left of the time of a state.
+#[must_use]
+pub const fn carry_of_time<T>(state: &State<T>) -> f64 {
+    state.time_carry
+}
+
+/// A state of its parts: the time with what rounding left of it, the components with theirs.
+#[must_use]
+pub const fn state_of<T>([time, time_carry]: [f64; 2], values: Vec<T>, carry: Vec<T>) -> State<T> {
+    State { time, values, carry, time_carry, run: None }
+}
+
 /// Refuses numbers that are infinite or NaN in some lane: of a step from the time `t`, or as they were given.
 ///
 /// # Errors

@@ -61,6 +61,8 @@ pub struct TurningFrame<F, T = f64> {
     dimension: usize,
     /// Positions in the turning frame.
     turned: Vec<T>,
+    /// The time of the last evaluation with sine and cosine there: sweeps of a step share their times.
+    angle: Option<[T; 3]>,
 }
 
 impl<F: SecondOrder<T>, T: Real> TurningFrame<F, T> {
@@ -87,7 +89,7 @@ impl<F: SecondOrder<T>, T: Real> TurningFrame<F, T> {
             return Err(IntegratorsError::VelocityDependent);
         }
         whole_points("field", field.freedom(), dimension)?;
-        Ok(Self { field, rate, dimension, turned: Vec::new() })
+        Ok(Self { field, rate, dimension, turned: Vec::new(), angle: None })
     }
 
     /// The forces.
@@ -149,7 +151,14 @@ impl<T: Real, F: SecondOrder<T>> SecondOrder<T> for TurningFrame<F, T> {
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn acceleration(&mut self, t: T, q: &[T], v: &[T], acceleration: &mut [T]) -> Result<(), F::Error> {
-        let (sine, cosine) = (T::lit(self.rate) * t).sin_cos();
+        let (sine, cosine) = match self.angle {
+            Some([known, sine, cosine]) if known == t => (sine, cosine),
+            _ => {
+                let (sine, cosine) = (T::lit(self.rate) * t).sin_cos();
+                self.angle = Some([t, sine, cosine]);
+                (sine, cosine)
+            }
+        };
         let n = F::FREEDOM.unwrap_or(q.len());
         if self.turned.len() != n {
             self.turned.resize(n, T::zero());

@@ -6,7 +6,7 @@
 mod radau_iia;
 mod stiff_field;
 
-pub use radau_iia::{RadauIia, RadauIiaStep, RadauOrder, RadauReport};
+pub use radau_iia::{RadauCheckpoint, RadauIia, RadauIiaStep, RadauOrder, RadauReport};
 pub use stiff_field::{DifferenceJacobian, Differentiable, ExactJacobian, GivenJacobian, StiffField, WithMass};
 
 #[cfg(feature = "sparse")]

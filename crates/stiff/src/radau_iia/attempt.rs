@@ -4,6 +4,7 @@ use piola_integrators::internal::{check_finite, compensated_add};
 use piola_integrators::{IntegratorsError, State};
 
 use super::aim::Aim;
+use super::checkpoint::Memory;
 use super::control::{Attempt, Controller};
 use super::order::RadauOrder;
 use super::stages::Solved;
@@ -39,10 +40,10 @@ pub(super) struct Progress<E> {
     pub(super) is_fixed: bool,
     pub(super) jacobian: Jacobian,
     /// Order and step of the factors in memory.
-    factored: Option<(RadauOrder, f64)>,
+    pub(super) factored: Option<(RadauOrder, f64)>,
     singular: u32,
     /// The last accepted step.
-    pub(super) last: Option<(&'static Tableau, f64)>,
+    pub(super) last: Option<(RadauOrder, f64)>,
     /// Whether the last attempt failed, or there was none.
     pub(super) just_rejected: bool,
     /// Why the last trial could not be made at all, if it could not.
@@ -61,6 +62,30 @@ impl<E> Progress<E> {
             last: None,
             just_rejected: true,
             obstacle: None,
+        }
+    }
+
+    /// The same, as it was after an accepted step.
+    pub(super) fn resumed(memory: Memory, [lowest, highest]: [RadauOrder; 2], is_fixed: bool) -> Self {
+        Self {
+            jacobian: if memory.is_jacobian_kept { Jacobian::Kept } else { Jacobian::None },
+            factored: memory.factored,
+            last: memory.last,
+            just_rejected: false,
+            ..Self::new(memory.controller.within(lowest, highest), memory.step, is_fixed)
+        }
+    }
+
+    /// What is remembered after an accepted step.
+    pub(super) fn memory(&self, rest: f64) -> Memory {
+        let is_jacobian_kept = self.jacobian == Jacobian::Kept;
+        Memory {
+            controller: self.controller,
+            step: self.step,
+            last: self.last,
+            factored: self.factored.filter(|_| is_jacobian_kept),
+            is_jacobian_kept,
+            rest,
         }
     }
 
@@ -87,14 +112,13 @@ impl RadauIia {
     ) -> Result<Option<Attempt>, IntegratorsError<F::Error>> {
         let order = progress.controller.order;
         let tableau = order.tableau();
-        let is_familiar = progress
-            .last
-            .is_some_and(|(before, last)| before.stages() == tableau.stages() && h.abs() <= LITTLE_GROWTH * last.abs());
+        let is_familiar =
+            progress.last.is_some_and(|(before, last)| before == order && h.abs() <= LITTLE_GROWTH * last.abs());
         let aim = Aim { is_familiar, ..Aim::of(self.control, order) };
         if !self.linearise(field, state, h, progress, report)? {
             return Ok(None);
         }
-        self.work.predict(tableau, h, progress.last);
+        self.work.predict(tableau, h, progress.last.map(|(order, step)| (order.tableau(), step)));
         let evaluations = &mut report.run.evaluations;
         let mut solved = self.work.solve(field, tableau, state, h, aim, evaluations);
         if progress.is_fixed && progress.jacobian == Jacobian::Current && !matches!(solved, Solved::Converged { .. }) {

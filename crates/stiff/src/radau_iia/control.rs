@@ -28,7 +28,9 @@ pub(super) struct Attempt {
 }
 
 /// The controller's memory.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct Controller {
     /// The order of the next step.
     pub(super) order: RadauOrder,
@@ -47,6 +49,11 @@ fn factor_for(error: f64, order: RadauOrder) -> f64 {
 impl Controller {
     pub(super) const fn new(lowest: RadauOrder, highest: RadauOrder) -> Self {
         Self { order: lowest, lowest, highest, last: None, steps_since_change: 0 }
+    }
+
+    /// The same within other bounds.
+    pub(super) fn within(self, lowest: RadauOrder, highest: RadauOrder) -> Self {
+        Self { order: self.order.clamp(lowest, highest), lowest, highest, ..self }
     }
 
     /// The part of a step of this error to be tried instead.

@@ -1,8 +1,10 @@
 //! An accepted step, with the state at any time within it.
 
-use piola_integrators::internal::{AcceptedStep, Interpolated};
+use piola_integrators::internal::{AcceptedStep, Interpolated, state_of};
 use piola_integrators::{IntegratorsError, number_and_times};
 
+use super::RadauReport;
+use super::checkpoint::{Memory, RadauCheckpoint};
 use super::order::RadauOrder;
 use super::stages::Workspace;
 
@@ -18,11 +20,22 @@ pub struct RadauIiaStep<'a> {
     work: &'a Workspace,
     order: RadauOrder,
     step: AcceptedStep,
+    so_far: SoFar,
+}
+
+/// What a checkpoint needs beside the workspace.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SoFar {
+    pub(super) report: RadauReport,
+    /// When the run started, s.
+    pub(super) origin: f64,
+    pub(super) time_carry: f64,
+    pub(super) memory: Memory,
 }
 
 impl<'a> RadauIiaStep<'a> {
-    pub(super) const fn new(work: &'a Workspace, order: RadauOrder, step: AcceptedStep) -> Self {
-        Self { work, order, step }
+    pub(super) const fn new(work: &'a Workspace, order: RadauOrder, step: AcceptedStep, so_far: SoFar) -> Self {
+        Self { work, order, step, so_far }
     }
 
     number_and_times!();
@@ -41,6 +54,15 @@ impl<'a> RadauIiaStep<'a> {
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.work.trial
+    }
+
+    /// The run at the end of this step, to be continued later by [`RadauIia::resume`](super::RadauIia::resume).
+    #[must_use]
+    pub fn checkpoint(&self) -> RadauCheckpoint {
+        let SoFar { report, origin, time_carry, memory } = self.so_far;
+        let (values, carry) = (self.work.trial.clone(), self.work.trial_carry.clone());
+        let state = state_of([self.step.end, time_carry], values, carry);
+        RadauCheckpoint::new(state, report, origin, memory, self.work)
     }
 
     /// Writes the state at a time within the step to `out`.

@@ -73,6 +73,15 @@ impl Matrices {
         }
     }
 
+    /// J as it is.
+    pub(super) fn jacobian_in_memory(&self) -> &[f64] {
+        match self {
+            Self::Dense(dense) => &dense.jacobian,
+            #[cfg(feature = "sparse")]
+            Self::Sparse(sparse) => &sparse.jacobian,
+        }
+    }
+
     /// Factors γ/h M − J and (α − iβ)/h M − J; the index of a pivot that is zero where there is one.
     pub(super) fn factor(&mut self, tableau: &Tableau, h: f64) -> Result<(), usize> {
         match self {

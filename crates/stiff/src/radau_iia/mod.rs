@@ -54,6 +54,7 @@
 
 mod aim;
 mod attempt;
+mod checkpoint;
 mod control;
 mod dense;
 mod estimate;
@@ -83,6 +84,7 @@ use core::ops::ControlFlow;
 use piola_integrators::internal::{begin, check_longest, check_step, locate, stopped_by};
 use piola_integrators::{Event, IntegratorsError, Occurrence, Report, State, Tolerance};
 
+pub use self::checkpoint::RadauCheckpoint;
 pub use self::dense::RadauIiaStep;
 pub use self::order::RadauOrder;
 use self::stages::Workspace;
@@ -273,7 +275,23 @@ impl RadauIia {
         end: f64,
         mut observer: impl FnMut(&RadauIiaStep<'_>) -> ControlFlow<()>,
     ) -> Result<RadauReport, IntegratorsError<F::Error>> {
-        self.run(field, state, end, &mut |step| Ok(stopped_by(observer(step))))
+        self.run(field, state, end, None, &mut |step| Ok(stopped_by(observer(step))))
+    }
+
+    /// Continues a run from a [`RadauCheckpoint`] that this method made with the same settings: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another system or of other orders.
+    pub fn resume<F: StiffField>(
+        &mut self,
+        field: &mut F,
+        checkpoint: &RadauCheckpoint,
+        state: &mut State,
+        end: f64,
+        mut observer: impl FnMut(&RadauIiaStep<'_>) -> ControlFlow<()>,
+    ) -> Result<RadauReport, IntegratorsError<F::Error>> {
+        self.run(field, state, end, Some(checkpoint), &mut |step| Ok(stopped_by(observer(step))))
     }
 
     /// Integrates to `end` and reports the crossings of the events in the order of time, as
@@ -295,7 +313,7 @@ impl RadauIia {
         piola_integrators::internal::check_run(field.dimension(), state, end)?;
         let mut values = state.values.clone();
         begin(events, state)?;
-        self.run(field, state, end, &mut |step| {
+        self.run(field, state, end, None, &mut |step| {
             if !events.is_empty()
                 && let Some(stop) = locate(step, events, &mut values, &mut on_event)?
             {

@@ -2,12 +2,13 @@
 
 use core::ops::ControlFlow;
 
-use piola_integrators::internal::{AcceptedStep, Stop, check_finite, check_run, equal_steps};
+use piola_integrators::internal::{AcceptedStep, Stop, carry_of_time, check_finite, check_run, equal_steps};
 use piola_integrators::{IntegratorsError, State};
 
 use super::attempt::{Jacobian, LITTLE_GROWTH, Progress};
+use super::checkpoint::RadauCheckpoint;
 use super::control::{Attempt, Controller};
-use super::dense::RadauIiaStep;
+use super::dense::{RadauIiaStep, SoFar};
 use super::{Control, RadauIia, RadauReport};
 use crate::StiffField;
 
@@ -25,9 +26,13 @@ impl RadauIia {
         field: &mut F,
         state: &mut State,
         end: f64,
+        resumed: Option<&RadauCheckpoint>,
         inspect: &mut impl FnMut(&mut RadauIiaStep<'_>) -> Result<ControlFlow<Stop>, IntegratorsError<F::Error>>,
     ) -> Result<RadauReport, IntegratorsError<F::Error>> {
         let n = field.dimension();
+        if let Some(checkpoint) = resumed {
+            state.clone_from(checkpoint.state());
+        }
         check_run(n, state, end)?;
         let [lowest, highest] = self.orders.unwrap_or_else(|| self.control.orders());
         if let Some((component, index)) = (0..n).map(|k| (k, field.index(k))).find(|&(_, index)| HIGHEST_INDEX < index)
@@ -35,28 +40,38 @@ impl RadauIia {
             return Err(IntegratorsError::IndexTooHigh { component, index, t: state.time });
         }
         self.work.begin(n, highest.tableau().stages(), field)?;
-        let mut report = RadauReport::begin();
-        let (origin, span) = (state.time, end - state.time);
+        let mut report = resumed.map_or(RadauReport::begin(), RadauCheckpoint::report);
+        let origin = resumed.map_or(state.time, RadauCheckpoint::origin);
+        let span = end - state.time;
         if span.abs() <= 0.0 {
             return Ok(report);
         }
-        field
-            .rate(origin, &state.values, &mut self.work.rate)
-            .map_err(|source| IntegratorsError::Field { t: origin, source })?;
-        report.run.evaluations += 1;
-        check_finite("rate", Some(origin), &self.work.rate)?;
-        field.magnitudes(&state.values, &mut self.work.magnitudes);
-
         let equal = match self.control {
             Control::Fixed(longest) => Some(equal_steps(origin, end, longest)?),
             Control::Adaptive(_) => None,
         };
-        let step = match (equal, self.first_step) {
-            (Some((_, h)), _) => h.abs(),
-            (None, Some(step)) => step,
-            (None, None) => self.first_step(field, state, span, lowest, &mut report),
+        let mut progress = if let Some(checkpoint) = resumed {
+            let mut memory = checkpoint.open(&mut self.work)?;
+            // Factors are made again, not counted again.
+            memory.factored = memory
+                .factored
+                .filter(|&(order, h)| order <= highest && self.work.matrices.factor(order.tableau(), h).is_ok());
+            field.magnitudes(&state.values, &mut self.work.magnitudes);
+            Progress::resumed(memory, [lowest, highest], equal.is_some())
+        } else {
+            field
+                .rate(origin, &state.values, &mut self.work.rate)
+                .map_err(|source| IntegratorsError::Field { t: origin, source })?;
+            report.run.evaluations += 1;
+            check_finite("rate", Some(origin), &self.work.rate)?;
+            field.magnitudes(&state.values, &mut self.work.magnitudes);
+            let step = match (equal, self.first_step) {
+                (Some((_, h)), _) => h.abs(),
+                (None, Some(step)) => step,
+                (None, None) => self.first_step(field, state, span, lowest, &mut report),
+            };
+            Progress::new(Controller::new(lowest, highest), step, equal.is_some())
         };
-        let mut progress = Progress::new(Controller::new(lowest, highest), step, equal.is_some());
         loop {
             if self.most_steps <= report.run.steps {
                 return Err(IntegratorsError::TooManySteps { t: state.time, steps: report.run.steps });
@@ -91,7 +106,10 @@ impl RadauIia {
                 _ => state.set_time(end),
             }
             let step = AcceptedStep::new(report.run.steps, start, state.time, h);
-            let mut seen = RadauIiaStep::new(&self.work, order, step);
+            progress.accept(attempt, h, report.run.steps == 1);
+            let so_far =
+                SoFar { report, origin, time_carry: carry_of_time(state), memory: progress.memory(self.work.rest) };
+            let mut seen = RadauIiaStep::new(&self.work, order, step, so_far);
             if let ControlFlow::Break((time, ending)) = inspect(&mut seen)? {
                 report.run.ending = ending;
                 if let Some(time) = time {
@@ -104,7 +122,6 @@ impl RadauIia {
             if last {
                 return Ok(report);
             }
-            progress.accept(attempt, h, report.run.steps == 1);
         }
     }
 
@@ -126,7 +143,7 @@ impl<E> Progress<E> {
     fn accept(&mut self, attempt: Attempt, h: f64, is_first: bool) {
         let order = self.controller.order;
         self.obstacle = None;
-        self.last = Some((order.tableau(), h));
+        self.last = Some((order, h));
         let is_fast = attempt.contraction.is_none_or(|contraction| contraction < FAST);
         self.jacobian = if is_fast { Jacobian::Kept } else { Jacobian::None };
         if !self.is_fixed {

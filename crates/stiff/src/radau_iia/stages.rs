@@ -49,7 +49,7 @@ pub(super) struct Workspace {
     pub(super) weights: Vec<f64>,
     pub(super) error: Vec<f64>,
     /// θ/(1 − θ) of the last iteration, by which the first change of the next is judged.
-    rest: f64,
+    pub(super) rest: f64,
 }
 
 /// How Newton's iteration ended.

@@ -1,5 +1,6 @@
 //! Radau IIA: coefficients, stability, orders, stiff problems, constraints, failures.
 
+mod checkpoints;
 mod constraints;
 mod failures;
 mod golden;
