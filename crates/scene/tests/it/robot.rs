@@ -186,7 +186,7 @@ fn mistakes_of_robots_are_named_with_their_place_and_what_is_valid() {
         (
             "four-bar.toml",
             &["closure.rocker pin.first_at=[3, 0, 0]"],
-            &["closure", "near those at which the loops close"],
+            &["name = \"rocker pin\"", "near those at which the loops close"],
         ),
         ("two-link-arm.toml", &["integrator.method=verner-98"], &["`method` in a scene of [robot]"]),
         ("two-link-arm.toml", &["reference.closed_form=kepler"], &["[reference] in a scene of [robot]"]),
