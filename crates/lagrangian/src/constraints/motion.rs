@@ -75,10 +75,12 @@ impl<S, P, F, C> ConstrainedMotion<'_, S, P, F, C> {
     /// The singular positions that accepted steps of the method went through: the first 64.
     ///
     /// They are recognised where the method projects its steps. [`Constraints::name`] names a condition.
+    #[must_use]
     pub fn singular_positions(&self) -> &[SingularPosition] {
         self.passages.listed()
     }
     /// How many singular positions accepted steps went through.
+    #[must_use]
     pub const fn singular_count(&self) -> usize {
         self.passages.count()
     }
