@@ -87,8 +87,7 @@ impl RobotStudy {
     pub(super) fn plan(&self, plan: &mut StudyPlan) -> (&'static [&'static str], &'static [&'static str]) {
         let tree = self.closed.tree();
         let file = self.file.file_name().unwrap_or_default().display();
-        plan.system =
-            format!("robot of {} bodies with {} freedoms from {}", tree.bodies(), tree.freedoms(), self.file.display());
+        plan.system = format!("robot of {} bodies with {} freedoms from {file}", tree.bodies(), tree.freedoms());
         plan.method = format!(
             "dormand-prince-853, relative tolerance {:e}, {} s to {} s, recorded at {} instants",
             self.tolerance,
