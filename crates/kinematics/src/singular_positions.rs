@@ -213,7 +213,7 @@ fn norm(row: &[f64]) -> f64 {
     dot(row, row).sqrt()
 }
 
-/// Σ x_k g_k.
+/// The combination `Σ x_k g_k`.
 fn combine(weights: &[f64], gradients: &[f64], order: &[usize], out: &mut [f64]) {
     let n = out.len();
     out.fill(0.0);

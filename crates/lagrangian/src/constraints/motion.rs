@@ -19,6 +19,10 @@ const BESIDE: f64 = 0.2;
 /// The least share below which a step must not end: there rounding, ε/x² at the distance x, exceeds the error of the method.
 const CLOSE_BY: f64 = 1e-3;
 
+/// How many such steps are refused, so that shorter ones are tried, and how many more are then accepted as they are.
+const REFUSED: u32 = 4;
+const ACCEPTED: u32 = 40;
+
 /// The motion in positions and velocities, y = (q, q̇), brought back to φ = 0 and φ̇ = 0 after every accepted step.
 ///
 /// The independent constraints are chosen where the constraints are satisfied, at the start and after every
@@ -57,9 +61,8 @@ pub struct ConstrainedMotion<'a, S, P, F, C> {
     beside: [bool; 2],
     stops: bool,
     stopped: Option<SingularPosition>,
-    /// The time of the last accepted state, and of the farthest one that was too close to a singular position.
-    accepted: f64,
-    refused: Option<f64>,
+    /// How many states close by one singular position steps have ended at.
+    close_by: u32,
 }
 
 impl<S, P, F, C> ConstrainedMotion<'_, S, P, F, C> {
@@ -72,16 +75,18 @@ impl<S, P, F, C> ConstrainedMotion<'_, S, P, F, C> {
     /// The singular positions that accepted steps of the method went through: the first 64.
     ///
     /// They are recognised where the method projects its steps. [`Constraints::name`] names a condition.
+    #[must_use]
     pub fn singular_positions(&self) -> &[SingularPosition] {
         self.passages.listed()
     }
     /// How many singular positions accepted steps went through.
+    #[must_use]
     pub const fn singular_count(&self) -> usize {
         self.passages.count()
     }
     /// Forgets the run before: the next evaluation is the start of another one.
     pub fn restart(&mut self) {
-        (self.rank, self.stopped, self.refused) = (None, None, None);
+        (self.rank, self.stopped, self.close_by) = (None, None, 0);
         (self.beside, self.usual_share) = ([false; 2], 0.0);
         self.largest.fill(0.0);
         self.passages.clear();
@@ -125,8 +130,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
             beside: [false; 2],
             stops: false,
             stopped: None,
-            accepted: 0.0,
-            refused: None,
+            close_by: 0,
         }
     }
 
@@ -259,7 +263,6 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Field for Constraine
             self.system.follow_into(&mut self.work, (q, v), t, acceleration)?;
         }
         if self.passages.accept(t) {
-            self.accepted = t;
             self.beside[0] = self.beside[1];
         }
         Ok(())
@@ -279,7 +282,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Field for Constraine
             }
             self.beside[1] = share.is_ok_and(|share| share < BESIDE);
             if found.is_some() || !self.beside[1] {
-                self.refused = None;
+                self.close_by = 0;
             }
             return self.go_on();
         }
@@ -289,14 +292,13 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Field for Constraine
         self.work.independence.rank = before;
         y.copy_from_slice(&self.stage);
         share?;
-        // After a shorter step another one goes over the position, unless the run is to end here.
-        let again = |refused: f64| (refused - t).abs() <= 8.0 * f64::EPSILON * t.abs();
-        if !self.refused.is_some_and(again) {
-            // The farthest of those that were refused.
-            if self.refused.is_none_or(|refused| (refused - t) * (t - self.accepted) <= 0.0) {
-                self.refused = Some(t);
-            }
-            return Err(self.system.singular(lost.unwrap_or_default(), t));
+        // After a shorter step another one may go over the position, unless the run is to end here.
+        self.close_by += 1;
+        let stays = REFUSED < self.close_by && (self.stops || REFUSED + ACCEPTED < self.close_by);
+        if stays || self.close_by <= REFUSED {
+            let condition = lost.unwrap_or_default();
+            self.stopped = stays.then_some(SingularPosition { t, condition });
+            return Err(self.system.singular(condition, t));
         }
         self.passages.pass_by(t);
         self.beside[1] = false;

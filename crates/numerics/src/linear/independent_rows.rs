@@ -24,7 +24,7 @@ pub struct IndependentRows<T> {
     rows: Vec<T>,
     /// sᵢ, in units of the constraint by those of √(kg m²).
     pub sizes: Vec<T>,
-    /// u_k, one after the other.
+    /// `u_k`, one after the other.
     basis: Vec<T>,
     /// r_{l,i} at `l count + i`.
     coefficients: Vec<T>,
@@ -71,6 +71,9 @@ impl<T: Real> IndependentRows<T> {
     }
 
     /// Factors the metric of n coordinates.
+    ///
+    /// # Errors
+    /// [`NumericsError::NotPositiveDefinite`].
     pub fn factor_metric(&mut self, metric: &[T], n: usize) -> Result<(), NumericsError> {
         self.coordinates = n;
         self.factors.clear();
@@ -155,6 +158,9 @@ impl<T: Real> IndependentRows<T> {
     }
 
     /// Takes the constraints that were chosen before, in the same order.
+    ///
+    /// # Errors
+    /// The row of which nothing is left.
     pub fn follow(&mut self) -> Result<(), usize> {
         self.begin();
         for place in 0..self.rank {
@@ -174,12 +180,14 @@ impl<T: Real> IndependentRows<T> {
     }
 
     /// The rows taken, in order.
+    #[must_use]
     pub fn taken(&self) -> &[usize] {
         &self.order[..self.rank]
     }
 
     /// The part of a taken row's length, by its place in the order, that those before it do not have: 1 where it is orthogonal
     /// to them.
+    #[must_use]
     pub fn share(&self, place: usize) -> T {
         self.coefficients[place * self.count() + self.order[place]]
     }
@@ -264,6 +272,9 @@ impl<T: Real> IndependentRows<T> {
     /// The multipliers of the last accelerations: Σ λᵢ gᵢ = f − M q̈, those of least Σ (λᵢ sᵢ)².
     ///
     /// To be called after [`choose`](Self::choose).
+    ///
+    /// # Errors
+    /// Those of [`ldlt`].
     pub fn multiply(&mut self, multipliers: &mut [T]) -> Result<(), NumericsError> {
         let (count, rank) = (self.count(), self.rank);
         let free = count - rank;
@@ -321,9 +332,10 @@ impl<T: Real> IndependentRows<T> {
         }
     }
 
-    /// The weights c with gᵢ = Σ c_k g_k for the constraint in a place of the order beyond the rank.
+    /// The weights c with `gᵢ = Σ c_k g_k` for the constraint in a place of the order beyond the rank.
     ///
     /// To be called after [`combine`](Self::combine).
+    #[must_use]
     pub fn combination(&self, place: usize) -> Vec<T> {
         let mut weights = vec![T::zero(); self.count()];
         let length = self.sizes[self.order[place]];
@@ -338,6 +350,9 @@ impl<T: Real> IndependentRows<T> {
     ///
     /// μ is far above rounding, so that constraints that depend on others need no decision, and far below one,
     /// so that the corrections of a few iterations are those without it.
+    ///
+    /// # Errors
+    /// Those of [`ldlt`].
     pub fn factor_corrections(&mut self) -> Result<(), NumericsError> {
         const MU: f64 = 1e-12;
         let count = self.count();
@@ -353,6 +368,9 @@ impl<T: Real> IndependentRows<T> {
     }
 
     /// x ← S⁻¹ (B Bᵀ + μ)⁻¹ S⁻¹ x: the weights of the gradients that correct residuals x.
+    ///
+    /// # Errors
+    /// Those of [`ldlt`].
     pub fn weigh(&self, x: &mut [T]) -> Result<(), NumericsError> {
         let scale = |x: &mut [T]| {
             for (x, &length) in x.iter_mut().zip(&self.sizes) {
@@ -366,6 +384,9 @@ impl<T: Real> IndependentRows<T> {
     }
 
     /// x ← M⁻¹ x.
+    ///
+    /// # Errors
+    /// Those of [`ldlt`].
     pub fn solve_metric(&self, x: &mut [T]) -> Result<(), NumericsError> {
         ldlt::solve_in_place(&self.factors, self.coordinates, x)
     }

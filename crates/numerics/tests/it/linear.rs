@@ -313,10 +313,10 @@ fn independent_rows_of_a_metric_are_chosen_and_met_with_the_least_change() {
     assert_eq!(rows.sizes, [1.0, 1.0, 2.0_f64.sqrt()]);
     rows.choose(1e-7);
     assert_eq!((rows.rank, rows.taken()), (2, &[0, 1][..]));
-    assert_eq!([rows.share(0), rows.share(1)], [1.0, 1.0]);
+    assert_close("shares", &[rows.share(0), rows.share(1)], &[1.0, 1.0], Tol::ulps(1.0));
     let mut change = [0.0; 2];
     rows.correct(&[3.0, -4.0, -1.0], &mut change);
-    assert_eq!(change, [-3.0, 2.0]);
+    assert_close("change", &change, &[-3.0, 2.0], Tol::ulps(2.0));
     rows.combine();
     let expected = [1.0, 1.0, 0.0];
     assert_close("x + 2y", &rows.combination(2), &expected, Tol::ulps(4.0));

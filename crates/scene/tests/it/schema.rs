@@ -73,9 +73,9 @@ fn scenes_that_come_with_the_program_are_valid() {
         if path.extension().is_some_and(|extension| extension == "toml") {
             match piola_scene::SceneFile::load(&path, &[]) {
                 Ok(_) => count += 1,
-                // Scenes of solids and of boxes are not read without their feature, and nothing else is wrong with them.
+                // Scenes of solids, boxes and robots are not read without their feature, and nothing else is wrong with them.
                 Err(piola_scene::SceneError::Invalid(report))
-                    if !cfg!(all(feature = "solutions", feature = "spectral")) =>
+                    if !cfg!(all(feature = "solutions", feature = "spectral", feature = "robots")) =>
                 {
                     let [mistake] = report.mistakes.as_slice() else { panic!("{}: {report}", path.display()) };
                     assert!(mistake.found.contains("needs the feature `"), "{}: {report}", path.display());
@@ -84,6 +84,8 @@ fn scenes_that_come_with_the_program_are_valid() {
             }
         }
     }
-    let (of_solids, of_boxes) = (usize::from(cfg!(feature = "solutions")), usize::from(cfg!(feature = "spectral")));
-    assert!(7 + 5 * of_solids + 3 * of_boxes <= count, "{count} scenes");
+    let has = |feature: bool, scenes: usize| if feature { scenes } else { 0 };
+    let least =
+        7 + has(cfg!(feature = "solutions"), 5) + has(cfg!(feature = "spectral"), 3) + has(cfg!(feature = "robots"), 3);
+    assert!(least <= count, "{count} scenes");
 }

@@ -55,8 +55,12 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("measured", &["document", "charts", "spectra"]),
     // solutions, by feature: twisted rods.
     ("forward", &["measured", "solutions"]),
-    // solutions and uniformity, by feature: studies of solids; spectral, by feature: fields on a box.
-    ("scene", &["document", "charts", "simulation", "characteristics", "solutions", "uniformity", "spectral"]),
+    // solutions and uniformity, by feature: studies of solids; spectral, by feature: fields on a box; multibody, by feature:
+    // robots.
+    (
+        "scene",
+        &["document", "charts", "simulation", "characteristics", "solutions", "uniformity", "spectral", "multibody"],
+    ),
     ("ensemble", &["scene"]),
     // charts: the folder of the results.
     // images, by feature: files of images, for the command `register` alone.
@@ -110,6 +114,7 @@ const BY_FEATURE: &[(&str, &str)] = &[
     ("fit", "laws"),
     ("fit", "specimens"),
     ("fit", "viscometry"),
+    ("scene", "multibody"),
     ("scene", "solids"),
     ("scene", "solutions"),
     ("scene", "spectral"),

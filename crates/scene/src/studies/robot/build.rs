@@ -68,7 +68,13 @@ impl Builder<'_> {
         }
         if 0 < closed.conditions() {
             let placed = closed.project(&mut closed.workspace(), &mut q, &mut v, time.map_or(0.0, |time| time.start));
-            self.sound(table, "file", placed, "angles at the start near those at which the loops close")?;
+            let of_error = |closure: &Record| match (&placed, closure.text("name")) {
+                (Err(MultibodyError::NoClosedState { closure, .. }), Some(name)) => closure.starts_with(name),
+                _ => false,
+            };
+            let closure = scene.records("closure").iter().find(|closure| of_error(closure));
+            let (record, key) = closure.map_or((table, "file"), |closure| (closure, "name"));
+            self.sound(record, key, placed, "angles at the start near those at which the loops close")?;
         }
         let names = names(&tree);
         let frictions = tree.joints().iter().filter(|place| 0.0 < place.joint.friction);

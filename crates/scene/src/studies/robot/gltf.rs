@@ -165,17 +165,19 @@ pub(super) fn animation(found: &RobotMotion, robot: &RobotStudy, title: &str) ->
     let frames: Vec<_> = found.samples.iter().step_by(stride).collect();
     let start = frames.first()?.t;
     let mut data = Data::default();
-    let meshes: Vec<Value> =
-        [("box", Surface::cube()), ("cylinder", Surface::cylinder()), ("sphere", Surface::sphere())]
-            .into_iter()
-            .map(|(name, surface)| {
-                let places = data.floats(&surface.places, 3, Some(34962));
-                let normals = data.floats(&surface.normals, 3, Some(34962));
-                let indices = data.indices(&surface.corners);
-                let attributes = json!({ "POSITION": places, "NORMAL": normals });
-                json!({ "name": name, "primitives": [{ "attributes": attributes, "indices": indices, "material": 0 }] })
-            })
-            .collect();
+    let shapes: Vec<Vec<Shape>> = tree.joints().iter().map(|place| shapes(robot, tree, place.child)).collect();
+    let mut used: Vec<Form> = shapes.iter().flatten().map(|shape| shape.form).collect();
+    used.sort_unstable();
+    used.dedup();
+    let mut meshes = Vec::new();
+    for form in &used {
+        let surface = form.surface();
+        let places = data.floats(&surface.places, 3, Some(34962));
+        let normals = data.floats(&surface.normals, 3, Some(34962));
+        let indices = data.indices(&surface.corners);
+        let attributes = json!({ "POSITION": places, "NORMAL": normals });
+        meshes.push(json!({ "primitives": [{ "attributes": attributes, "indices": indices, "material": 0 }] }));
+    }
     let times: Vec<f64> = frames.iter().map(|frame| (frame.t - start).abs()).collect();
     let times = data.floats(&times, 1, None);
 
@@ -183,7 +185,7 @@ pub(super) fn animation(found: &RobotMotion, robot: &RobotStudy, title: &str) ->
     let mut nodes = vec![json!({ "name": title, "rotation": [-half, 0.0, 0.0, half] })];
     let (mut bodies, mut channels, mut samplers) = (Vec::new(), Vec::new(), Vec::new());
     let mut work = tree.workspace();
-    for place in tree.joints() {
+    for (place, shapes) in tree.joints().iter().zip(&shapes) {
         let (mut places, mut turns) = (Vec::new(), Vec::<f64>::new());
         for frame in &frames {
             tree.forward_kinematics(&mut work, &frame.q).ok()?;
@@ -198,7 +200,6 @@ pub(super) fn animation(found: &RobotMotion, robot: &RobotStudy, title: &str) ->
         }
         let node = nodes.len();
         bodies.push(node);
-        let shapes = shapes(robot, tree, place.child);
         let children: Vec<usize> = (node + 1..=node + shapes.len()).collect();
         let mut body = json!({
             "name": tree.body_name(place.child),
@@ -209,7 +210,7 @@ pub(super) fn animation(found: &RobotMotion, robot: &RobotStudy, title: &str) ->
             body["children"] = children.into();
         }
         nodes.push(body);
-        nodes.extend(shapes);
+        nodes.extend(shapes.iter().map(|shape| shape.node(used.binary_search(&shape.form).unwrap_or_default())));
         for (path, output) in
             [("translation", data.floats(&places, 3, None)), ("rotation", data.floats(&turns, 4, None))]
         {
@@ -241,21 +242,54 @@ pub(super) fn animation(found: &RobotMotion, robot: &RobotStudy, title: &str) ->
     serde_json::to_string(&file).ok()
 }
 
-/// The nodes of the shapes of a body.
-fn shapes(robot: &RobotStudy, tree: &RigidTree, body: BodyIndex) -> Vec<Value> {
-    let mut nodes = Vec::new();
+/// The kinds of surfaces.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Form {
+    Cube,
+    Cylinder,
+    Sphere,
+}
+
+impl Form {
+    fn surface(self) -> Surface {
+        match self {
+            Self::Cube => Surface::cube(),
+            Self::Cylinder => Surface::cylinder(),
+            Self::Sphere => Surface::sphere(),
+        }
+    }
+}
+
+/// A surface on a body.
+struct Shape {
+    form: Form,
+    scale: [f64; 3],
+    origin: [f64; 3],
+    turn: Attitude<f64>,
+}
+
+impl Shape {
+    fn node(&self, mesh: usize) -> Value {
+        let Attitude { w, x, y, z } = self.turn;
+        json!({ "mesh": mesh, "scale": self.scale, "translation": self.origin, "rotation": [x, y, z, w] })
+    }
+}
+
+/// The shapes of a body: those of the file, or thin boxes to its joints.
+fn shapes(robot: &RobotStudy, tree: &RigidTree, body: BodyIndex) -> Vec<Shape> {
+    let mut shapes = Vec::new();
     let name = tree.body_name(body);
     for visual in robot.visuals.iter().filter(|visual| visual.body == name) {
-        let (mesh, scale) = match visual.shape {
-            VisualShape::Box { sides } => (0, sides),
-            VisualShape::Cylinder { radius, length } => (1, [radius, radius, length]),
-            VisualShape::Sphere { radius } => (2, [radius; 3]),
+        let (form, scale) = match visual.shape {
+            VisualShape::Box { sides } => (Form::Cube, sides),
+            VisualShape::Cylinder { radius, length } => (Form::Cylinder, [radius, radius, length]),
+            VisualShape::Sphere { radius } => (Form::Sphere, [radius; 3]),
             _ => continue,
         };
-        nodes.push(shape(mesh, scale, visual.origin, visual.attitude));
+        shapes.push(Shape { form, scale, origin: visual.origin, turn: visual.attitude });
     }
-    if !nodes.is_empty() {
-        return nodes;
+    if !shapes.is_empty() {
+        return shapes;
     }
     for child in tree.joints().iter().filter(|child| tree.parent_of(child.child) == Ok(body)) {
         let [x, y, z] = child.joint.origin;
@@ -269,21 +303,12 @@ fn shapes(robot: &RobotStudy, tree: &RigidTree, body: BodyIndex) -> Vec<Value> {
             } else {
                 Attitude { w: 0.0, x: 0.0, y: 0.0, z: 1.0 }
             };
-            nodes.push(shape(0, [length, 0.08 * length, 0.08 * length], [0.5 * x, 0.5 * y, 0.5 * z], turn));
+            let scale = [length, 0.08 * length, 0.08 * length];
+            shapes.push(Shape { form: Form::Cube, scale, origin: [0.5 * x, 0.5 * y, 0.5 * z], turn });
         }
     }
-    nodes.push(shape(0, [0.05; 3], [0.0; 3], Attitude::identity()));
-    nodes
-}
-
-/// A node with a mesh.
-fn shape(mesh: usize, scale: [f64; 3], origin: [f64; 3], turn: Attitude<f64>) -> Value {
-    json!({
-        "mesh": mesh,
-        "scale": scale,
-        "translation": origin,
-        "rotation": [turn.x, turn.y, turn.z, turn.w],
-    })
+    shapes.push(Shape { form: Form::Cube, scale: [0.05; 3], origin: [0.0; 3], turn: Attitude::identity() });
+    shapes
 }
 
 /// (x, y, z, w) of a rotation by its rows.

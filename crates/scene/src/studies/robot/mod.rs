@@ -86,8 +86,8 @@ impl RobotStudy {
     /// Fills a plan; the tables and figures of this study.
     pub(super) fn plan(&self, plan: &mut StudyPlan) -> (&'static [&'static str], &'static [&'static str]) {
         let tree = self.closed.tree();
-        plan.system =
-            format!("robot of {} bodies with {} freedoms from {}", tree.bodies(), tree.freedoms(), self.file.display());
+        let file = self.file.file_name().unwrap_or_default().display();
+        plan.system = format!("robot of {} bodies with {} freedoms from {file}", tree.bodies(), tree.freedoms());
         plan.method = format!(
             "dormand-prince-853, relative tolerance {:e}, {} s to {} s, recorded at {} instants",
             self.tolerance,
@@ -104,7 +104,9 @@ impl RobotStudy {
         if self.closed.conditions() == 0 {
             plan.skip("closures", "no [[closure]], mimic joint or locked joint");
         } else {
-            plan.compute("closures", format!("{} conditions, by multipliers", self.closed.conditions()));
+            let count = self.closed.conditions();
+            let plural = if count == 1 { "" } else { "s" };
+            plan.compute("closures", format!("{count} condition{plural}, by multipliers"));
             let how = if self.stops { "the run stops before them" } else { "passed on the branch of the velocity" };
             plan.compute("singular positions", how);
         }
