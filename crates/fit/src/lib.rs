@@ -5,6 +5,8 @@
 mod error;
 #[cfg(feature = "fluids")]
 pub mod fluids;
+#[cfg(feature = "nonlinear")]
+pub mod nonlinear;
 mod outcome;
 mod search;
 #[cfg(feature = "solids")]

@@ -2,6 +2,8 @@
 
 #[cfg(feature = "fluids")]
 mod fluids;
+#[cfg(feature = "nonlinear")]
+mod nonlinear;
 #[cfg(feature = "solids")]
 mod sides;
 #[cfg(feature = "solids")]
