@@ -6,7 +6,7 @@ use clap::Args;
 use piola_charts::Folder;
 use piola_measured::MeasuredError;
 use piola_measured::fitting::Program;
-use piola_measured::spectra::{SpectrumRequest, SpectrumTable, prony, spectrum_until};
+use piola_measured::spectra::{SpectrumRequest, SpectrumTable, general_viscoelastic, prony, spectrum_until};
 
 use crate::Exit;
 use crate::commands::{note, refused};
@@ -31,9 +31,15 @@ pub(crate) struct SpectrumArguments {
     /// Shift temperatures vertically, too.
     #[arg(long)]
     pub(crate) vertical: bool,
-    /// Write the Prony series for abaqus, ansys or febio; several times for several.
+    /// Write the Prony series for abaqus, ansys, febio or ls-dyna; several times for several.
     #[arg(long = "card", value_name = "PROGRAM")]
     pub(crate) cards: Vec<String>,
+    /// The bulk modulus, Pa, for the card of LS-DYNA.
+    #[arg(long, value_name = "K")]
+    pub(crate) bulk_modulus: Option<f64>,
+    /// The density, kg/m³, for the card of LS-DYNA.
+    #[arg(long, value_name = "RHO")]
+    pub(crate) density: Option<f64>,
     /// Folder of the results instead of out/spectrum-DATA.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
@@ -55,7 +61,12 @@ pub(crate) fn find(arguments: &SpectrumArguments) -> Exit {
         let found = watched(&table.name(), &interrupt, |watch| spectrum_until(&table, &request, watch))?;
         let card = |text: &String| -> Result<(String, String), MeasuredError> {
             let program: Program = text.parse()?;
-            Ok((format!("{text}-prony.{}", program.ending()), prony(program, &found.fit.spectrum)?))
+            let spectrum = &found.fit.spectrum;
+            let card = match (program, arguments.bulk_modulus, arguments.density) {
+                (Program::LsDyna, Some(bulk), Some(density)) => general_viscoelastic(spectrum, bulk, density)?,
+                _ => prony(program, spectrum)?,
+            };
+            Ok((format!("{text}-prony.{}", program.ending()), card))
         };
         let cards = arguments.cards.iter().map(card).collect::<Result<Vec<_>, _>>()?;
         let beside = || Path::new("out").join(format!("spectrum-{}", table.name()));

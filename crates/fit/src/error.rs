@@ -103,6 +103,25 @@ pub enum FitError {
         /// The name.
         name: String,
     },
+    /// A viscoelastic fluid has a name that is not known.
+    #[error(
+        "no viscoelastic fluid that can be fitted is called `{name}`; they are oldroyd-b, giesekus, linear-ptt, exponential-ptt, \
+         kbkz-rational, kbkz-exponential"
+    )]
+    UnknownNonlinearModel {
+        /// The name.
+        name: String,
+    },
+    /// A measured number is not positive and finite.
+    #[error("row {row}: the {quantity} is {value}; it must be positive and finite")]
+    RowNotPositive {
+        /// The row, from 0.
+        row: usize,
+        /// The quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// A law of foam or fibres has a name that is not known.
     #[error("no law of foam or fibres is called `{name}`; they are hyperfoam:n and holzapfel-gasser-ogden")]
     UnknownSidesModel {

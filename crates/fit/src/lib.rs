@@ -9,6 +9,8 @@ mod estimates;
 pub mod fluids;
 #[cfg(feature = "history")]
 pub mod history;
+#[cfg(feature = "nonlinear")]
+pub mod nonlinear;
 mod outcome;
 mod search;
 #[cfg(feature = "solids")]

@@ -4,6 +4,8 @@
 mod fluids;
 #[cfg(feature = "history")]
 mod history;
+#[cfg(feature = "nonlinear")]
+mod nonlinear;
 #[cfg(feature = "solids")]
 mod sides;
 #[cfg(feature = "solids")]

@@ -20,7 +20,7 @@ mod isotherms;
 mod output;
 mod table;
 
-pub use card::prony;
+pub use card::{general_viscoelastic, prony};
 pub use piola_spectra::{RelaxationMode, RelaxationSpectrum, RetardationMode, RetardationSpectrum};
 pub use table::{Isotherm, Response, ResponseRow, SpectrumTable};
 
