@@ -117,8 +117,7 @@ impl VoigtNumbering {
     }
 }
 
-/// Calls a visitor with the kind of the law: laws of a kind share one kernel, so that this library is built in less than half the
-/// time.
+/// Calls a visitor with the kind of the law: laws of a kind share one kernel, so that twelve are compiled instead of seventeen.
 fn visit<V: SolidVisitor<Output = Result<(), SolidsError>>>(law: &AnySolid, visitor: V) -> Result<(), FfiError> {
     let Some(result) = kinds::visit(law, visitor) else {
         // A law that was added to the enum and has no kind yet: no numbers rather than wrong ones.

@@ -1,5 +1,10 @@
 //! Many points of one law in lanes, one implicit step an increment.
 
+#![expect(
+    clippy::needless_range_loop,
+    reason = "indices of rows and columns of several arrays; iterators are not inlined into lanes"
+)]
+
 use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::{DeformationGradient, FirstPiola};
 use piola_numerics::linear::matrix3::rows_of;

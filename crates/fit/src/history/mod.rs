@@ -186,7 +186,8 @@ pub fn fit_history(
     if points < searched.len() {
         return Err(FitError::TooFewPoints { model: model.name(), points, parameters: searched.len() });
     }
-    let start = start.iter().zip(&ranges).map(|(value, range)| value.clamp(range.bounds[0], range.bounds[1])).collect();
+    let start: Vec<f64> =
+        start.iter().zip(&ranges).map(|(value, range)| value.clamp(range.bounds[0], range.bounds[1])).collect();
     let problem = Problem { model, tests, ranges, control: options.control, points, evaluations: Cell::new(0) };
     problem.residuals(&start)?;
     let x = searched.iter().map(|&k| problem.ranges[k].inward(start[k])).collect();
