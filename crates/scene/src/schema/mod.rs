@@ -5,6 +5,7 @@
 
 mod boxes;
 mod forces;
+mod phase;
 mod solids;
 mod studies;
 mod tables;
