@@ -11,7 +11,6 @@ use crate::model::{Scene, System};
 
 /// Answers to the questions of a scene.
 #[derive(Debug, Clone)]
-#[non_exhaustive]
 pub enum Answers {
     /// Of a Hamiltonian.
     Phase(PhaseAnswers),
