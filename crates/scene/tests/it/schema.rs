@@ -85,5 +85,5 @@ fn scenes_that_come_with_the_program_are_valid() {
         }
     }
     let (of_solids, of_boxes) = (usize::from(cfg!(feature = "solutions")), usize::from(cfg!(feature = "spectral")));
-    assert!(7 + 5 * of_solids + 3 * of_boxes <= count, "{count} scenes");
+    assert!(10 + 5 * of_solids + 3 * of_boxes <= count, "{count} scenes");
 }
