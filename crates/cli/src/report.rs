@@ -2,7 +2,8 @@
 
 use core::fmt::Write as _;
 
-use piola_scene::run::{Drift, Run};
+use piola_scene::output::stability;
+use piola_scene::run::{Answers, Drift, Run};
 use piola_scene::{Plan, Scene};
 
 /// Bodies beyond this are left to the tables.
@@ -31,6 +32,9 @@ pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
     line("post-Newtonian energy", run.drifts.post_newtonian_energy);
     line("momentum", run.drifts.momentum);
     line("angular momentum", run.drifts.angular_momentum);
+    if let Some(answers) = &run.answers {
+        answers_table(&mut text, run, answers);
+    }
     if let Some(works) = run.history.works.last() {
         let _ = writeln!(text, "\n{:<24}{:>12}", "work of", "J");
         for (name, work) in run.history.work_names.iter().zip(works) {
@@ -45,6 +49,37 @@ pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
     }
     text.push('\n');
     text
+}
+
+/// Answers to the questions of a scene.
+fn answers_table(text: &mut String, run: &Run, answers: &Answers) {
+    text.push('\n');
+    match answers {
+        Answers::Phase(found) => {
+            if !found.crossings.is_empty() {
+                let _ = writeln!(text, "{:<24}{:>12}", "crossings of the section", found.crossings.len());
+            }
+            if let Some(exponent) = found.exponent {
+                let _ = writeln!(text, "{:<24}{exponent:>12.4e} 1/s", "largest exponent");
+            }
+        }
+        Answers::Mechanism(Err(why)) => {
+            let _ = writeln!(text, "no equilibrium: {why}");
+        }
+        Answers::Mechanism(Ok(found)) => {
+            let _ = writeln!(text, "{:<24}{:>12}", "equilibrium", stability(found.stability));
+            for (name, q) in run.history.coordinate_names.iter().zip(&found.coordinates).take(SHOWN) {
+                let _ = writeln!(text, "{name:<24}{q:>12.6}");
+            }
+            if !found.modes.is_empty() {
+                let _ = writeln!(text, "{:<24}{:>12}{:>14}", "mode", "rad/s", "growth 1/s");
+            }
+            for (number, mode) in found.modes.iter().take(SHOWN).enumerate() {
+                let (rate, growth) = (mode.angular_frequency, mode.growth_rate);
+                let _ = writeln!(text, "{:<24}{rate:>12.6}{growth:>14.6}", number + 1);
+            }
+        }
+    }
 }
 
 /// Relative errors by body, at a few instants when there are few.

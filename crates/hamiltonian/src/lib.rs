@@ -22,7 +22,7 @@
 //! | whether K is an integral; its symmetry; K of a symmetry | [`integral_test`], [`symmetry_flow`], [`integral_of_symmetry`] |
 //! | involution and independence of integrals; integrals among candidates | [`involution_test`], [`integrals_among`] |
 //! | a trajectory from 2n − 1 integrals | [`trajectory_from_integrals`] |
-//! | Poincaré sections, Lyapunov exponents | [`PoincareSection`], [`lyapunov_exponents`] |
+//! | Poincaré sections, Lyapunov exponents | [`PoincareSection`], [`lyapunov_exponents`], [`lyapunov_exponents_observed`] |
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![expect(clippy::doc_markdown, reason = "symbols with indices, as g_ΔΓ, are not code")]
@@ -77,7 +77,7 @@ pub use lie_derivative::{
     LocallyHamiltonianTest, lie_derivative_of_function, lie_derivative_of_one_form, lie_derivative_of_two_form,
     locally_hamiltonian_test,
 };
-pub use lyapunov::{LyapunovExponents, lyapunov_exponents};
+pub use lyapunov::{LyapunovExponents, lyapunov_exponents, lyapunov_exponents_observed};
 pub use noether::{Generator, OneParameterGroup, SymmetryFlow, integral_of_symmetry, symmetry_flow};
 pub use section::PoincareSection;
 pub use tangent::{CotangentVector, TangentVector};

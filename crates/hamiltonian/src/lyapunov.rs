@@ -8,6 +8,8 @@
 //! logarithms of their lengths add up (G. Benettin, L. Galgani, A. Giorgilli and J.-M. Strelcyn, Meccanica 15 (1980)).
 //! For a Hamiltonian the exponents come in pairs ±λ, and two of them vanish where H is kept.
 
+use core::ops::ControlFlow;
+
 use piola_integrators::{DormandPrince853, State, Tolerance};
 
 use super::PhaseFunction;
@@ -80,6 +82,24 @@ pub fn lyapunov_exponents(
     intervals: usize,
     tolerance: Tolerance,
 ) -> Result<LyapunovExponents, HamiltonianError> {
+    lyapunov_exponents_observed(hamiltonian, start, count, (interval, intervals), tolerance, |_| {
+        ControlFlow::Continue(())
+    })
+}
+
+/// [`lyapunov_exponents`] over `(interval, intervals)` with an observer that gets the number of intervals done and may stop the
+/// run: then the exponents are those of the time until then.
+///
+/// # Errors
+/// As [`lyapunov_exponents`].
+pub fn lyapunov_exponents_observed(
+    hamiltonian: &impl PhaseFunction,
+    start: &PhasePoint,
+    count: usize,
+    (interval, intervals): (f64, usize),
+    tolerance: Tolerance,
+    mut observer: impl FnMut(usize) -> ControlFlow<()>,
+) -> Result<LyapunovExponents, HamiltonianError> {
     check_finite("interval", &[interval])?;
     if interval <= 0.0 {
         return Err(HamiltonianError::NotPositive { quantity: "interval", value: interval });
@@ -115,6 +135,9 @@ pub fn lyapunov_exponents(
         elapsed += interval;
         times.push(elapsed);
         history.push(sums.first().map_or(0.0, |sum| sum / elapsed));
+        if observer(times.len()).is_break() {
+            break;
+        }
     }
     let exponents = sums.iter().map(|sum| if 0.0 < elapsed { sum / elapsed } else { 0.0 }).collect();
     let end = PhasePoint::new(&values[..n], &values[n..dimension], start.time() + elapsed)?;

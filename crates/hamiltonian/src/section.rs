@@ -80,6 +80,21 @@ impl<'a, H: PhaseFunction, S: PhaseFunction> PoincareSection<'a, H, S> {
         most: usize,
         crossings: &mut Vec<PhasePoint>,
     ) -> Result<(), HamiltonianError> {
+        self.follow_observed_into(start, end, most, crossings, |_| ControlFlow::Continue(()))
+    }
+
+    /// [`follow_into`](Self::follow_into) with an observer that gets the time after every step and may stop the motion.
+    ///
+    /// # Errors
+    /// As [`follow_into`](Self::follow_into).
+    pub fn follow_observed_into(
+        &self,
+        start: &PhasePoint,
+        end: f64,
+        most: usize,
+        crossings: &mut Vec<PhasePoint>,
+        mut observer: impl FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<(), HamiltonianError> {
         check_finite("end", &[end])?;
         let n = start.q().len();
         let refused = |source| HamiltonianError::Run { time: start.time(), source: Box::new(source) };
@@ -110,7 +125,7 @@ impl<'a, H: PhaseFunction, S: PhaseFunction> PoincareSection<'a, H, S> {
                     found += 1;
                     if found < most && failure.is_none() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
                 },
-                |_| ControlFlow::Continue(()),
+                |step| observer(step.time()),
             )
             .map_err(refused)?;
         match failure {

@@ -114,6 +114,12 @@ pub enum SimulationError {
         /// The index of the coordinate.
         coordinate: usize,
     },
+    /// A method for H = T(p) + V(q) with another H.
+    #[error("the method {method} needs H = T(p) + V(q); an implicit one as gauss-legendre-8 takes any H")]
+    NotSeparable {
+        /// The name of the method.
+        method: String,
+    },
     /// A method that constraints do not allow.
     #[error("the method {method} does not keep constraints: an adaptive one does, as dormand-prince-853")]
     ConstraintsNeedProjection {

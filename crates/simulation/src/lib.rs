@@ -10,6 +10,8 @@ pub mod fronts;
 pub mod joints;
 pub mod motion;
 mod outcome;
+pub mod phase;
+pub mod questions;
 
 pub use error::SimulationError;
 pub use outcome::Outcome;

@@ -89,7 +89,7 @@ impl Parser<'_> {
         }
     }
 
-    fn expect(&mut self, sign: char, why: &str) -> Result<(), Wrong> {
+    fn require(&mut self, sign: char, why: &str) -> Result<(), Wrong> {
         if self.take(&[sign]).is_some() {
             return Ok(());
         }
@@ -217,7 +217,7 @@ impl Parser<'_> {
             }
             Some(Token::Sign('(')) => {
                 let part = self.sum()?;
-                self.expect(')', "must close a bracket")?;
+                self.require(')', "must close a bracket")?;
                 Ok(part)
             }
             Some(Token::Name(name)) => {
@@ -249,7 +249,7 @@ impl Parser<'_> {
         }
         let first = self.sum()?;
         if let Some((_, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) {
-            self.expect(')', &format!("must close {name}(…)"))?;
+            self.require(')', &format!("must close {name}(…)"))?;
             let dimension = match function {
                 Function::Abs => first.dimension,
                 Function::Sign => Dimension::NONE,
@@ -269,9 +269,9 @@ impl Parser<'_> {
             return Err(Wrong::new(format!("no function is named `{name}`"), valid));
         };
         let left = self.last();
-        self.expect(',', &format!("must part the arguments of {name}(…)"))?;
+        self.require(',', &format!("must part the arguments of {name}(…)"))?;
         let second = self.sum()?;
-        self.expect(')', &format!("must close {name}(…)"))?;
+        self.require(')', &format!("must close {name}(…)"))?;
         if first.dimension != second.dimension {
             let (first, second) = (words(first.dimension), words(second.dimension));
             return Err(Wrong::new(format!("{name} of {first} and {second}"), format!("twice {first}")));
@@ -292,7 +292,7 @@ impl Parser<'_> {
                 piola_document::words::one_of(&name, known),
             ));
         };
-        self.expect(')', "must close rate(…)")?;
+        self.require(')', "must close rate(…)")?;
         self.push(start, Node::Variable(*variable), plain(*dimension))
     }
 }

@@ -41,13 +41,14 @@ impl Builder<'_> {
         let surroundings = Surroundings::of(self, scene, &mechanism);
         let (forces, constraints) = (self.forces(scene, &surroundings), self.constraints(scene, &surroundings));
         let reactions = scene.record("output").and_then(|output| output.flag("reactions")).unwrap_or(false);
+        let questions = self.mechanism_questions(scene)?;
         let (forces, constraints) = (forces?, constraints?);
         let built = mechanism.with_forces(forces).and_then(|mechanism| mechanism.with_constraints(constraints));
         let refused = |error: SimulationError| {
             Mistake::new(table.place.clone(), error.to_string()).valid("forces and constraints of finite numbers")
         };
         let mechanism = built.map_err(|error| self.wrong(refused(error))).ok()?;
-        Some(Mechanism { reactions, ..mechanism })
+        Some(Mechanism { reactions, questions, ..mechanism })
     }
 
     fn joint(&mut self, record: &Record, names: &[&str]) -> Option<Joint> {

@@ -7,6 +7,7 @@ mod central;
 mod constraints;
 mod forces;
 mod gravitation;
+mod hamiltonian;
 mod mechanism;
 mod reference;
 
@@ -17,6 +18,7 @@ pub use piola_simulation::joints::{JointTree, Mechanism, PartName};
 pub use piola_simulation::motion::{
     Central, Gravitation, MassPoint, NEWTONIAN_CONSTANT, Orbiter, PostNewtonian, System, TimeSpan,
 };
+pub use piola_simulation::phase::PhaseSystem;
 pub use reference::{ClosedForm, Reference, ReferenceKind, ReferenceTable};
 
 use crate::SceneError;
@@ -176,6 +178,7 @@ impl<'d> Builder<'d> {
         let integrator = self.integrator(record);
         let output = output(record, &name);
         self.keeps_constraints(record);
+        self.answerable(record);
         self.recordable(record, &output);
         let reference = self.reference(record, system.as_ref(), time);
         Some(Scene {
@@ -204,7 +207,7 @@ impl<'d> Builder<'d> {
                     record.place_of(kind.name),
                     format!("a scene of [{}] is a study: nothing moves in it", kind.name),
                 )
-                .valid("[gravity], [mechanism] or [central]"),
+                .valid("[gravity], [mechanism], [central] or [hamiltonian]"),
             );
             return None;
         }
@@ -212,6 +215,7 @@ impl<'d> Builder<'d> {
         match kind.name {
             "gravity" => self.gravitation(record, table).map(System::Gravitation),
             "mechanism" => self.mechanism(record, table).map(|system| System::Mechanism(Box::new(system))),
+            "hamiltonian" => self.hamiltonian(record, table).map(|system| System::Phase(Box::new(system))),
             _ => self.central(record, table).map(System::Central),
         }
     }
@@ -299,7 +303,8 @@ impl<'d> Builder<'d> {
     fn recordable(&mut self, record: &Record, output: &OutputRequest) {
         /// Positions over all instants and bodies: about a gigabyte with its tables.
         const MOST: usize = 5_000_000;
-        let bodies: usize = ["body", "particle", "rigid_body"].iter().map(|list| record.records(list).len()).sum();
+        let bodies: usize =
+            ["body", "particle", "rigid_body", "coordinate"].iter().map(|list| record.records(list).len()).sum();
         let samples = output.samples as usize;
         if MOST / bodies.max(1) < samples {
             let place = record.record("output").map_or(record.place.clone(), |table| table.place_of("samples"));

@@ -4,16 +4,19 @@
 //! written, and one that fails does not keep the others from being written.
 
 mod figures;
+mod phase;
 mod summary;
 mod tables;
 
 pub use piola_charts::{Folder, Written};
-pub use summary::Summary;
+pub use summary::{Summary, stability};
 
 use crate::model;
 use crate::model::Scene;
 use crate::plan::Plan;
-use crate::run::Run;
+use crate::run::{Answers, Run};
+use piola_simulation::phase::PhaseAnswers;
+use piola_simulation::questions::MechanismAnswers;
 
 /// Writes everything that the plan lists.
 #[must_use]
@@ -23,6 +26,12 @@ pub fn write(folder: &Folder, scene: &Scene, plan: &Plan, run: &Run, summary: &S
         "trajectory.csv" => Some(tables::trajectory(&run.history)),
         "invariants.csv" => Some(tables::invariants(&run.history)),
         "works.csv" => Some(tables::works(&run.history)),
+        "energies.csv" => Some(tables::energies(&run.history)),
+        "section.csv" => Some(tables::section(&run.history, phase_answers(run)?)),
+        "exponent.csv" => Some(tables::exponent(phase_answers(run)?)),
+        "modes.csv" => Some(tables::modes(&run.history, mechanism_answers(run)?)),
+        "phase.svg" => Some(phase::planes(title(scene), &run.history)),
+        "section.svg" => Some(phase::section(title(scene), &run.history, phase_answers(run)?)),
         "reactions.csv" => Some(tables::reactions(&run.history)),
         "constraints.csv" => Some(tables::conditions(&run.history)),
         "coordinates.csv" => Some(tables::coordinates(&run.history)),
@@ -33,6 +42,14 @@ pub fn write(folder: &Folder, scene: &Scene, plan: &Plan, run: &Run, summary: &S
         _ => None,
     };
     Written::of(folder, plan.files.iter().filter_map(|name| Some((name.as_str(), text(name)?))))
+}
+
+fn phase_answers(run: &Run) -> Option<&PhaseAnswers> {
+    if let Some(Answers::Phase(answers)) = &run.answers { Some(answers) } else { None }
+}
+
+fn mechanism_answers(run: &Run) -> Option<&MechanismAnswers> {
+    if let Some(Answers::Mechanism(Ok(answers))) = &run.answers { Some(answers) } else { None }
 }
 
 fn title(scene: &Scene) -> &str {

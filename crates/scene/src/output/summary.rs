@@ -5,7 +5,8 @@ use serde_json::{Map, Value, json};
 
 use crate::model::Scene;
 use crate::plan::{Item, Method, Plan, method_summary};
-use crate::run::{Drift, Outcome, Run};
+use crate::run::{Answers, Drift, Outcome, Run};
+use piola_simulation::questions::{MechanismMode, Stability};
 
 /// The numbers of a run.
 ///
@@ -46,6 +47,9 @@ pub struct Summary {
     /// Works of the forces of a mechanism at the time reached, J, by name.
     #[serde(rename = "works_J", skip_serializing_if = "Map::is_empty")]
     pub works: Map<String, Value>,
+    /// Answers to the questions of the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub answers: Option<Value>,
     /// Errors against the reference.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reference: Option<Value>,
@@ -78,6 +82,7 @@ impl Summary {
             end_s: plan.end,
             invariants: invariants(run),
             works: works(run),
+            answers: run.answers.as_ref().map(|found| answers(run, found)),
             reference: reference(run),
             skipped: plan.skipped.clone(),
         }
@@ -90,6 +95,39 @@ impl Summary {
         let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
         text.push('\n');
         text
+    }
+}
+
+/// The answers without what their tables hold.
+fn answers(run: &Run, found: &Answers) -> Value {
+    match found {
+        Answers::Phase(answers) => json!({
+            "crossings": answers.crossings.len(),
+            "largest_exponent_1_per_s": answers.exponent,
+        }),
+        Answers::Mechanism(Err(why)) => json!({ "equilibrium": null, "failure": why }),
+        Answers::Mechanism(Ok(answers)) => {
+            let names = run.history.coordinate_names.iter().cloned();
+            let coordinates: Map<String, Value> = names.zip(answers.coordinates.iter().map(|q| json!(q))).collect();
+            let mode = |mode: &MechanismMode| json!({ "angular_frequency_rad_per_s": mode.angular_frequency, "growth_rate_1_per_s": mode.growth_rate });
+            json!({
+                "equilibrium": coordinates,
+                "residual": answers.residual,
+                "stability": stability(answers.stability),
+                "modes": answers.modes.iter().map(mode).collect::<Vec<_>>(),
+            })
+        }
+    }
+}
+
+/// What becomes of a small disturbance, in words.
+#[must_use]
+pub fn stability(stability: Stability) -> &'static str {
+    match stability {
+        Stability::Asymptotic => "asymptotically stable",
+        Stability::Stable => "stable",
+        Stability::Unstable => "unstable",
+        _ => "marginal",
     }
 }
 

@@ -2,6 +2,9 @@
 
 use core::fmt::Write as _;
 
+use piola_simulation::phase::PhaseAnswers;
+use piola_simulation::questions::MechanismAnswers;
+
 use crate::run::{History, PartReaction, Run};
 
 /// `time_s,body,x_m,y_m,z_m` with velocities where there are any: a form that can be a reference again.
@@ -45,11 +48,57 @@ pub(super) fn invariants(history: &History) -> String {
     text
 }
 
-/// Coordinates of a mechanism and their rates.
+/// Coordinates of a mechanism and their rates, or coordinates and momenta.
 pub(super) fn coordinates(history: &History) -> String {
-    let rates = history.coordinate_names.iter().map(|name| format!("rate of {name}"));
-    let names: Vec<String> = history.coordinate_names.iter().cloned().chain(rates).collect();
+    let mut names = history.coordinate_names.clone();
+    // Momenta have names of their own, rates those of their coordinates.
+    if history.coordinates.first().is_some_and(|row| names.len() < row.len()) {
+        names.extend(history.coordinate_names.iter().map(|name| format!("rate of {name}")));
+    }
     columns(&history.times, &names, &history.coordinates)
+}
+
+/// Energies by part.
+pub(super) fn energies(history: &History) -> String {
+    columns(&history.times, &history.energy_names, &history.energies)
+}
+
+/// Crossings of a Poincaré section.
+pub(super) fn section(history: &History, answers: &PhaseAnswers) -> String {
+    let times: Vec<f64> = answers.crossings.iter().map(|(t, _)| *t).collect();
+    let points: Vec<Vec<f64>> = answers.crossings.iter().map(|(_, point)| point.clone()).collect();
+    columns(&times, &history.coordinate_names, &points)
+}
+
+/// Estimates of the largest Lyapunov exponent over time.
+pub(super) fn exponent(answers: &PhaseAnswers) -> String {
+    let mut text = String::from("time_since_start_s,exponent_1_per_s\n");
+    for [t, estimate] in &answers.estimates {
+        let _ = writeln!(text, "{t:?},{estimate:?}");
+    }
+    text
+}
+
+/// Modes of small motions: frequency, growth and the displacement of each coordinate in phase and a quarter of a turn later.
+pub(super) fn modes(history: &History, answers: &MechanismAnswers) -> String {
+    let mut text = String::from("mode,angular_frequency_rad_per_s,growth_rate_1_per_s");
+    for name in &history.coordinate_names {
+        let _ = write!(text, ",{name}");
+    }
+    for name in &history.coordinate_names {
+        let _ = write!(text, ",{name} in quadrature");
+    }
+    text.push('\n');
+    for (number, mode) in answers.modes.iter().enumerate() {
+        let _ = write!(text, "{},{:?},{:?}", number + 1, mode.angular_frequency, mode.growth_rate);
+        for i in 0..2 * mode.shape.len() {
+            let (shape, place) = (&mode.shape, i.checked_sub(mode.shape.len()));
+            let displacement = place.map_or_else(|| shape[i], |i| mode.quadrature.get(i).copied().unwrap_or(0.0));
+            let _ = write!(text, ",{displacement:?}");
+        }
+        text.push('\n');
+    }
+    text
 }
 
 /// Works of the forces of a mechanism since the start.

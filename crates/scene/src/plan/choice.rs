@@ -3,7 +3,7 @@
 use piola_integrators::{Advice, AdvisedMethod, Character, Order, advise};
 
 use super::Method;
-use crate::model::{Central, Gravitation, Scene, System};
+use crate::model::{Central, Gravitation, PhaseSystem, Scene, System};
 use piola_gravitation::kepler::KeplerMotion;
 
 /// Steps a method of order 8 takes for each turn of the fastest motion: errors near rounding on mild ellipses.
@@ -14,6 +14,9 @@ const TOLERANCE: f64 = 1e-12;
 const FINE_TOLERANCE: f64 = 2.0 * f64::EPSILON;
 /// Tolerance of mechanisms, whose evaluations cost more.
 const MECHANISM_TOLERANCE: f64 = 1e-15;
+
+/// Tolerance under a Hamiltonian whose step adapts.
+const PHASE_TOLERANCE: f64 = 1e-14;
 
 /// The method and why.
 pub(super) fn method(scene: &Scene) -> (Method, String) {
@@ -52,7 +55,7 @@ fn adaptive(scene: &Scene, tolerance: f64, why: &str) -> (Method, String) {
     let tolerance = scene.integrator.tolerance.unwrap_or(tolerance);
     let character = match &scene.system {
         // The equations of a mechanism are given as rates of first order.
-        System::Mechanism(_) => Character::of_first_order(),
+        System::Mechanism(_) | System::Phase(_) => Character::of_first_order(),
         System::Gravitation(system) if system.post_newtonian.is_some() => {
             Character::of_first_order().with_uneven_steps()
         }
@@ -82,7 +85,7 @@ fn depends_on_positions_alone(system: &System) -> bool {
     match system {
         System::Gravitation(system) => system.post_newtonian.is_none(),
         System::Central(_) => true,
-        System::Mechanism(_) => false,
+        System::Mechanism(_) | System::Phase(_) => false,
     }
 }
 
@@ -91,6 +94,7 @@ fn turns(scene: &Scene) -> Option<f64> {
     let turn = match &scene.system {
         System::Gravitation(system) => fastest_turn(system),
         System::Central(system) => shortest_period(system),
+        System::Phase(system) => system.turn(scene.time.start),
         System::Mechanism(_) => None,
     };
     turn.map(|turn| scene.time.length() / turn)
@@ -146,6 +150,7 @@ fn automatic(scene: &Scene) -> (Method, String) {
             let why = format!("the eccentricity {e:.4} needs steps of very different lengths: the step adapts");
             adaptive(scene, FINE_TOLERANCE, &why)
         }
+        System::Phase(system) => phase(scene, system),
         System::Mechanism(_) => match request.step {
             Some(step) => (
                 Method::GaussLegendre { order: Order::Eight, step },
@@ -161,6 +166,28 @@ fn automatic(scene: &Scene) -> (Method, String) {
     }
 }
 
+/// The method for a Hamiltonian.
+fn phase(scene: &Scene, system: &PhaseSystem) -> (Method, String) {
+    let request = &scene.integrator;
+    let separable = system.hamiltonian.0.is_separable();
+    if request.tolerance.is_some() || (request.step.is_none() && !separable) {
+        let why = if separable {
+            "integrator.tolerance asks for an adaptive step"
+        } else {
+            "H is no sum T(p) + V(q), which explicit symplectic methods need; the step adapts"
+        };
+        return adaptive(scene, PHASE_TOLERANCE, why);
+    }
+    let (step, why) = step(scene, Order::Eight);
+    if separable {
+        let why = format!("H = T(p) + V(q): explicit, symplectic, energy does not drift; {why}");
+        return (Method::Composition { order: Order::Eight, step }, why);
+    }
+    let why =
+        format!("integrator.step asks for a fixed step, and H is no sum T(p) + V(q): implicit, symplectic; {why}");
+    (Method::GaussLegendre { order: Order::Eight, step }, why)
+}
+
 /// The step asked for, or one made from the fastest motion at the start.
 fn step(scene: &Scene, order: Order) -> (f64, String) {
     let span = scene.time.length();
@@ -172,7 +199,11 @@ fn step(scene: &Scene, order: Order) -> (f64, String) {
     match turn {
         Some(turn) if turn.is_finite() && 0.0 < turn => (
             (turn / per_turn).min(span),
-            format!("the step is 1/{per_turn} of the fastest turn, {:.4} d", turn / 86_400.0),
+            if matches!(scene.system, System::Phase(_)) {
+                format!("the step is 1/{per_turn} of the fastest small turn at the start, {turn:.4} s")
+            } else {
+                format!("the step is 1/{per_turn} of the fastest turn, {:.4} d", turn / 86_400.0)
+            },
         ),
         _ => (span / 10_000.0, "the step is 1/10000 of the time, for want of a better measure".to_string()),
     }
@@ -183,6 +214,7 @@ fn turn(scene: &Scene) -> Option<f64> {
     match &scene.system {
         System::Gravitation(system) => fastest_turn(system),
         System::Central(system) => turn_at_pericentre(system),
+        System::Phase(system) => system.turn(scene.time.start),
         System::Mechanism(_) => None,
     }
 }

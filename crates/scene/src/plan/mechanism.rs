@@ -2,6 +2,7 @@
 
 use piola_simulation::constraints::{Constraint, ConstraintKind};
 use piola_simulation::forces::Force;
+use piola_simulation::questions::MechanismQuestions;
 
 use super::Plan;
 use crate::model::Mechanism;
@@ -18,6 +19,8 @@ pub(super) fn tables(system: &Mechanism) -> impl Iterator<Item = &'static str> {
     let tables = [
         ("works.csv", 0 < works(system)),
         ("reactions.csv", asked),
+        ("energies.csv", system.questions.energies),
+        ("modes.csv", system.questions.modes),
         ("constraints.csv", asked && !system.constraints.is_empty()),
     ];
     tables.into_iter().filter(|(_, written)| *written).map(|(name, _)| name)
@@ -74,6 +77,18 @@ impl Plan {
                 }
             };
             self.compute("start under constraints", why);
+        }
+        let MechanismQuestions { equilibrium, modes, energies } = system.questions;
+        for (asked, what, key) in [
+            (equilibrium || modes, "equilibrium and its stability", "equilibrium"),
+            (modes, "modes of small motions", "modes"),
+            (energies, "energies by part", "energies"),
+        ] {
+            if asked {
+                self.compute(what, "[questions] asks for it");
+            } else {
+                self.skip(what, format!("questions.{key} = false"));
+            }
         }
         if system.reactions {
             self.compute("reactions", "output.reactions = true: at every recorded instant");

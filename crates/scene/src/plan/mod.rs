@@ -2,6 +2,7 @@
 
 mod choice;
 mod mechanism;
+mod phase;
 
 use core::fmt;
 
@@ -186,6 +187,7 @@ impl Plan {
                 self.force_items(system);
                 self.skip("momentum and angular momentum", "not conserved: the ground holds the mechanism");
             }
+            System::Phase(system) => self.phase_items(system),
             System::Central(system) => {
                 self.compute("central attraction", format!("gm = {} m³/s²", words::number(system.gm)));
                 self.skip("attraction between bodies", "[central]: the bodies do not attract");
@@ -210,12 +212,18 @@ impl Plan {
             None => self.skip("error against reference", "no [reference]"),
         }
         if scene.output.tables {
-            self.files.extend(["trajectory.csv", "invariants.csv"].map(str::to_string));
-            if matches!(scene.system, System::Mechanism(_)) {
+            if !matches!(scene.system, System::Phase(_)) {
+                self.files.push("trajectory.csv".to_string());
+            }
+            self.files.push("invariants.csv".to_string());
+            if matches!(scene.system, System::Mechanism(_) | System::Phase(_)) {
                 self.files.push("coordinates.csv".to_string());
             }
             if let System::Mechanism(system) = &scene.system {
                 self.files.extend(mechanism::tables(system).map(str::to_string));
+            }
+            if let System::Phase(system) = &scene.system {
+                self.files.extend(phase::tables(system).map(str::to_string));
             }
             if scene.reference.is_some() {
                 self.files.push("reference.csv".to_string());
@@ -224,7 +232,11 @@ impl Plan {
             self.skip("tables", "output.tables = false");
         }
         if scene.output.figures {
-            self.files.extend(["trajectory.svg", "invariants.svg"].map(str::to_string));
+            match &scene.system {
+                System::Phase(system) => self.files.extend(phase::figures(system).map(str::to_string)),
+                _ => self.files.push("trajectory.svg".to_string()),
+            }
+            self.files.push("invariants.svg".to_string());
             if scene.reference.is_some() {
                 self.files.push("error.svg".to_string());
             }
@@ -270,6 +282,7 @@ fn describe(system: &System) -> String {
             }
             format!("mechanism of {} with {}", parts.join(" and "), count(system.coordinates.len(), "coordinate"))
         }
+        System::Phase(system) => format!("Hamiltonian with {}", count(system.freedom(), "degree")) + " of freedom",
         System::Central(system) => {
             let n = system.bodies.len();
             format!("{} about a fixed centre", if n == 1 { "1 body".to_string() } else { format!("{n} bodies") })
@@ -282,6 +295,7 @@ fn equations(system: &System) -> usize {
         System::Gravitation(system) => 6 * system.bodies.len(),
         System::Mechanism(system) => 2 * system.coordinates.len() + mechanism::works(system),
         System::Central(system) => 6 * system.bodies.len(),
+        System::Phase(system) => 2 * system.freedom() + usize::from(system.hamiltonian.0.depends_on_time()),
     }
 }
 

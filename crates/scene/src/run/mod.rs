@@ -1,5 +1,6 @@
 //! Runs a planned scene and keeps its history.
 
+mod answers;
 mod comparison;
 
 use core::ops::ControlFlow;
@@ -7,6 +8,7 @@ use std::time::Instant;
 
 use piola_simulation::motion::{MotionRun, simulate};
 
+pub use answers::Answers;
 pub use comparison::{BodyErrors, ErrorAt, Errors};
 pub use piola_simulation::Outcome;
 pub use piola_simulation::motion::{Drift, DriftAt, Drifts, History, Invariants, PartReaction, Progress, Scaled};
@@ -36,6 +38,8 @@ pub struct Run {
     pub drifts: Drifts,
     /// Errors against the reference, when there is one.
     pub errors: Option<Errors>,
+    /// Answers to the questions of the scene, when it has some and the motion is complete.
+    pub answers: Option<Answers>,
 }
 
 /// Runs a scene as planned. The observer sees the progress after every step and may stop the run.
@@ -63,7 +67,23 @@ pub struct Run {
 /// # Ok::<(), piola_scene::SceneError>(())
 /// ```
 pub fn run(scene: &Scene, plan: &Plan, mut observer: impl FnMut(Progress) -> ControlFlow<()>) -> Run {
-    observed(scene, plan, &mut observer)
+    answered(scene, plan, &mut observer)
+}
+
+/// The motion and then the answers to the questions, for any observer.
+fn answered(scene: &Scene, plan: &Plan, observer: &mut dyn FnMut(Progress) -> ControlFlow<()>) -> Run {
+    let mut last = None;
+    let mut run = observed(scene, plan, &mut |progress| {
+        last = Some(progress);
+        observer(progress)
+    });
+    if run.outcome == Outcome::Completed
+        && let Some((answers, outcome)) = answers::answers(scene, last, observer)
+    {
+        run.answers = Some(answers);
+        run.outcome = outcome;
+    }
+    run
 }
 
 /// What a run will cost, by a trial of its first steps.
@@ -164,7 +184,7 @@ fn observed(scene: &Scene, plan: &Plan, observer: &mut dyn FnMut(Progress) -> Co
     }
     let drifts = history.drifts();
     let errors = comparison::errors(scene, &history);
-    Run { outcome, time, steps, rejected, force_evaluations, wall_time, history, drifts, errors }
+    Run { outcome, time, steps, rejected, force_evaluations, wall_time, history, drifts, errors, answers: None }
 }
 
 /// The first recorded number that is not finite, in words: such a record is no result.
@@ -183,7 +203,12 @@ fn not_finite(history: &History) -> Option<String> {
             ));
         }
     }
-    let tables = [("a work", &history.works), ("the force of a constraint", &history.conditions)];
+    let tables = [
+        ("a coordinate", &history.coordinates),
+        ("a work", &history.works),
+        ("the force of a constraint", &history.conditions),
+        ("an energy", &history.energies),
+    ];
     for (what, rows) in tables {
         let bad = |(t, row): (&f64, &Vec<f64>)| row.iter().find(|x| !x.is_finite()).map(|x| (*t, *x));
         if let Some((t, value)) = history.times.iter().zip(rows).find_map(bad) {

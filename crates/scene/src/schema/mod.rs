@@ -5,6 +5,7 @@
 
 mod boxes;
 mod forces;
+mod phase;
 mod robot;
 mod solids;
 mod studies;

@@ -6,7 +6,7 @@ use piola_document::units::Dimension as D;
 use super::Absent::{Default, Optional, Required};
 use super::Kind::{Flag, Name, Path, Text};
 use super::Range::{Any, Fraction, NotNegative, Positive};
-use super::{Kind, SceneKind, Word, boxes, forces, quantity, robot, solids, studies, word};
+use super::{Kind, SceneKind, Word, boxes, forces, phase, quantity, robot, solids, studies, word};
 
 const fn vector(dimension: D) -> Kind {
     Kind::Numbers(dimension, &[3])
@@ -15,8 +15,9 @@ const fn vector(dimension: D) -> Kind {
 /// The kinds of scenes.
 pub static SCENE_KINDS: [SceneKind; 12] = [
     motion("gravity", &["body"]),
-    motion("mechanism", &["joint", "particle", "rigid_body", "force", "constraint", "parameters"]),
+    motion("mechanism", &["joint", "particle", "rigid_body", "force", "constraint", "parameters", "questions"]),
     motion("central", &["body"]),
+    motion("hamiltonian", &["coordinate", "parameters", "questions"]),
     study("wavefront", &["medium"]),
     study("room", &[]),
     study("balloon", &["law"]),
@@ -37,8 +38,8 @@ const fn study(name: &'static str, lists: &'static [&'static str]) -> SceneKind 
 }
 
 table! {
-    /// A scene has exactly one of the tables that say of what kind it is: `[gravity]`, `[mechanism]` and `[central]`
-    /// move in time and need `[time]`, and so does `[robot]`; all others are studies without it. A `[box]` has its times in
+    /// A scene has exactly one of the tables that say of what kind it is: `[gravity]`, `[mechanism]`, `[central]`,
+    /// `[hamiltonian]` and `[robot]` move in time and need `[time]`; all others are studies without it. A `[box]` has its times in
     /// its own table.
     pub static SCENE = "scene" {
         /// Name of the scene, of its output folder and in its results. The file's name when absent.
@@ -51,6 +52,8 @@ table! {
         mechanism: Kind::Table(&MECHANISM), Optional;
         /// Bodies about a fixed centre of attraction.
         central: Kind::Table(&CENTRAL), Optional;
+        /// Coordinates and momenta under a Hamiltonian that is an expression.
+        hamiltonian: Kind::Table(&phase::HAMILTONIAN), Optional;
         /// Wave fronts and rays in a medium.
         wavefront: Kind::Table(&studies::WAVEFRONT), Optional;
         /// First arrival of a signal in a room.
@@ -91,6 +94,10 @@ table! {
         particle: Kind::Tables(&PARTICLE), Optional;
         /// Rigid bodies of a `[mechanism]`.
         rigid_body: Kind::Tables(&RIGID_BODY), Optional;
+        /// The coordinates of a `[hamiltonian]`.
+        coordinate: Kind::Tables(&phase::COORDINATE), Optional;
+        /// What is asked of a `[mechanism]` or a `[hamiltonian]` besides its motion.
+        questions: Kind::Table(&phase::QUESTIONS), Optional;
         /// What acts on a `[mechanism]` besides gravity.
         force: Kind::Tables(&forces::FORCE), Optional;
         /// What holds a `[mechanism]` besides its joints.

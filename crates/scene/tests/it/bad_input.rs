@@ -194,7 +194,9 @@ fn syntax_errors_and_wrong_values_are_reported_together() {
 fn system_that_is_missing_or_twice_there_is_a_mistake() {
     let missing = report("[time]\nend = 1.0\n");
     assert!(
-        missing.to_string().contains("exactly one of [gravity], [mechanism], [central], [wavefront], [room]"),
+        missing
+            .to_string()
+            .contains("exactly one of [gravity], [mechanism], [central], [hamiltonian], [wavefront], [room]"),
         "{missing}"
     );
     let twice = report(&format!("{PAIR}[central]\ngm = 1.0\n"));

@@ -7,6 +7,7 @@ mod constraints;
 #[cfg(all(feature = "solutions", feature = "spectral"))]
 mod figures;
 mod forces;
+mod hamiltonian;
 mod plan;
 mod reference;
 #[cfg(feature = "robots")]

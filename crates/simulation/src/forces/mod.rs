@@ -12,7 +12,7 @@
 mod build;
 mod work;
 
-pub(crate) use build::exists;
+pub(crate) use build::{exists, in_coordinates};
 pub(crate) use work::working;
 
 use nalgebra::Vector3;

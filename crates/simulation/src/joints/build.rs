@@ -4,6 +4,7 @@ use piola_kinematics::RigidBody;
 
 use super::{JointTree, Mechanism, Node, PartName, Placed};
 use crate::SimulationError;
+use crate::questions::MechanismQuestions;
 
 /// Largest number of joints on one path from the ground: the placement recurses along it.
 pub const DEEPEST: usize = 200;
@@ -134,6 +135,7 @@ impl Mechanism {
             forces: Vec::new(),
             constraints: Vec::new(),
             reactions: false,
+            questions: MechanismQuestions::default(),
         };
         // Coordinates are numbered as the joints are written.
         for draft in joints {

@@ -10,6 +10,7 @@ use piola_numerics::Real;
 
 use crate::constraints::Constraint;
 use crate::forces::Force;
+use crate::questions::MechanismQuestions;
 
 pub use anchor::Anchor;
 pub(crate) use build::finite;
@@ -52,6 +53,8 @@ pub struct Mechanism {
     pub constraints: Vec<Constraint>,
     /// Whether reactions are recorded.
     pub reactions: bool,
+    /// What is asked besides the motion.
+    pub questions: MechanismQuestions,
 }
 
 /// A part with its mass.

@@ -15,14 +15,18 @@ pub struct History {
     pub positions: Vec<Vec<[f64; 3]>>,
     /// Velocities, m/s, in the same order; empty for a mechanism, which has `coordinates`.
     pub velocities: Vec<Vec<[f64; 3]>>,
-    /// Names of the coordinates of a mechanism.
+    /// Names of the coordinates of a mechanism; names of coordinates and then of momenta under a Hamiltonian.
     pub coordinate_names: Vec<String>,
-    /// Coordinates and then their rates, for each instant; empty unless a mechanism.
+    /// Coordinates and then their rates or momenta, for each instant; empty of bodies that move freely.
     pub coordinates: Vec<Vec<f64>>,
     /// Names of the forces of a mechanism that take energy or give it.
     pub work_names: Vec<String>,
     /// Their works since the start, J, for each instant; empty without such forces.
     pub works: Vec<Vec<f64>>,
+    /// Names of the parts of the energy: kinetic energy and weight of every part, what every force stores.
+    pub energy_names: Vec<String>,
+    /// These energies, J, for each instant; empty unless they are asked for.
+    pub energies: Vec<Vec<f64>>,
     /// Names of the forces of constraints, each with its unit: tensions, forces of loops, drives.
     pub condition_names: Vec<String>,
     /// These forces for each instant; empty unless reactions are asked for.

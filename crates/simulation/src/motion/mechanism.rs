@@ -6,6 +6,7 @@ use piola_kinematics::{Attitude, Holonomic, Placement, RigidBody};
 use piola_lagrangian::{LagrangianError, Reaction, Workspace, constraints};
 
 use super::drive::{Driver, Reading};
+use super::energies;
 use super::{History, Invariants, Method, PartReaction};
 use crate::SimulationError;
 use crate::constraints::ConstrainedMechanism;
@@ -30,6 +31,9 @@ pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver)
     let works = history.work_names.len();
     if system.reactions {
         history.condition_names = system.condition_names();
+    }
+    if system.questions.energies {
+        history.energy_names = energies::names(system);
     }
     let lagrangian = system.lagrangian();
     let constrained = (!system.constraints.is_empty()).then(|| system.constrained());
@@ -207,6 +211,10 @@ impl Reading for MechanismReading<'_> {
         history.coordinates.push(self.state.clone());
         if self.state.len() < values.len() {
             history.works.push(values[self.state.len()..].to_vec());
+        }
+        if self.system.questions.energies {
+            let (q, v) = self.state.split_at(self.state.len() / 2);
+            history.energies.push(energies::energies(self.system, q, v, time));
         }
         if self.system.reactions {
             self.hold(time, history);

@@ -5,11 +5,14 @@
 //! | [`Gravitation`] | ẍᵢ = Σⱼ Gmⱼ (xⱼ − xᵢ)/(rᵢⱼ² + ε²)^(3/2), with a post-Newtonian term on request | energy, momentum, angular momentum |
 //! | [`Central`] | ẍᵢ = −Gm xᵢ/rᵢ³ | energy, angular momentum |
 //! | [`Mechanism`](crate::joints::Mechanism) | Lagrange's of its tree of joints; Hamilton's with [`Method::GaussLegendre`] | energy less the works of its forces |
+//! | [`PhaseSystem`](crate::phase::PhaseSystem) | q̇ = ∂H/∂p, ṗ = −∂H/∂q | energy less ∫ ∂H/∂t dt |
 
 mod drive;
+mod energies;
 mod history;
 mod mechanism;
 mod method;
+mod phase;
 mod system;
 mod systems;
 mod timetable;
@@ -99,6 +102,7 @@ pub fn simulate(
         System::Gravitation(system) => systems::gravitation(system, method, &mut driver),
         System::Mechanism(system) => mechanism::mechanism(system, method, &mut driver),
         System::Central(system) => systems::central(system, method, &mut driver),
+        System::Phase(system) => phase::phase(system, method, &mut driver),
     };
     let (history, report, time) = driver.finish();
     let outcome = match result {

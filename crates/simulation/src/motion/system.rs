@@ -3,6 +3,7 @@
 use piola_gravitation::kepler::KeplerMotion;
 
 use crate::joints::Mechanism;
+use crate::phase::PhaseSystem;
 
 /// The kinds of systems.
 ///
@@ -16,6 +17,8 @@ pub enum System {
     Mechanism(Box<Mechanism>),
     /// Bodies about a fixed centre.
     Central(Central),
+    /// Coordinates and momenta under a Hamiltonian.
+    Phase(Box<PhaseSystem>),
 }
 
 impl System {
@@ -26,6 +29,7 @@ impl System {
             Self::Gravitation(system) => system.bodies.iter().map(|body| body.name.as_str()).collect(),
             Self::Mechanism(system) => system.parts.iter().map(|part| part.name.as_str()).collect(),
             Self::Central(system) => system.bodies.iter().map(|body| body.name.as_str()).collect(),
+            Self::Phase(_) => Vec::new(),
         }
     }
 }

@@ -51,7 +51,8 @@ fn double_pendulum() -> Mechanism {
 
 fn run(system: &Mechanism, method: Method, end: f64) -> MotionRun {
     let timetable = Timetable::new(TimeSpan { start: 0.0, end }, 5, &[]);
-    let run = simulate(&System::Mechanism(Box::new(system.clone())), method, &timetable, &mut |_| ControlFlow::Continue(()));
+    let run =
+        simulate(&System::Mechanism(Box::new(system.clone())), method, &timetable, &mut |_| ControlFlow::Continue(()));
     assert_eq!(run.outcome, Outcome::Completed);
     run
 }

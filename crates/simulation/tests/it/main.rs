@@ -8,6 +8,7 @@ mod fronts;
 mod mechanism;
 mod media;
 mod orbits;
+mod phase;
 mod timetable;
 
 use piola_testkit::CountingAllocator;

@@ -1,0 +1,130 @@
+//! Hamiltonians and questions from checked records.
+
+use piola_document::units::Dimension;
+use piola_document::{Mistake, Record};
+use piola_simulation::expression::{Expression, Variable};
+use piola_simulation::phase::{PhaseExpression, PhaseQuestions, PhaseSystem};
+use piola_simulation::questions::MechanismQuestions;
+
+use super::Builder;
+use crate::expression::{self, Meaning, Names};
+
+/// Relative tolerance of sections and exponents when none is asked for.
+const TOLERANCE: f64 = 1e-12;
+
+impl Builder<'_> {
+    pub(super) fn hamiltonian(&mut self, scene: &Record, table: &Record) -> Option<PhaseSystem> {
+        let records = scene.records("coordinate");
+        if records.is_empty() && !scene.has("coordinate") {
+            self.wrong(
+                Mistake::new(table.place.clone(), "[hamiltonian] without coordinates")
+                    .valid("at least one [[coordinate]]"),
+            );
+        }
+        let mut names = Names::new(false);
+        let (mut coordinates, mut momenta) = (Vec::new(), Vec::new());
+        for (i, record) in records.iter().enumerate() {
+            let name = record.text("name")?.to_string();
+            let momentum = record.text("momentum").map_or_else(|| format!("p_{name}"), str::to_string);
+            for (key, name, variable) in
+                [("name", &name, Variable::Coordinate(i)), ("momentum", &momentum, Variable::Conjugate(i))]
+            {
+                if !names.add(name, Meaning::Variable(variable), Dimension::NONE) {
+                    self.wrong(
+                        Mistake::new(record.place_of(key), format!("the name `{name}` is taken"))
+                            .valid("a name unlike t, pi, any coordinate, momentum and function"),
+                    );
+                    return None;
+                }
+            }
+            coordinates.push(name);
+            momenta.push(momentum);
+        }
+        let united = scene.parameters("parameters").iter().find(|parameter| parameter.dimension != Dimension::NONE);
+        if let Some(parameter) = united {
+            self.wrong(
+                Mistake::new(parameter.place.clone(), format!("`{}` has a unit", parameter.name))
+                    .valid("a pure number: nothing in a [hamiltonian] has a unit"),
+            );
+            return None;
+        }
+        if scene.has("parameters") && !scene.fields.contains_key("parameters") {
+            return None;
+        }
+        self.parameters(scene, &mut names);
+        let energy = self.phase_expression(table, "energy", &names);
+        let questions = self.phase_questions(scene, &names);
+        let numbers = |key: &str| records.iter().map(|record| record.number(key)).collect::<Option<Vec<f64>>>();
+        let (start, momentum) = (numbers("start")?, numbers("momentum_at_start")?);
+        if let Some(reference) = scene.record("reference") {
+            self.wrong(
+                Mistake::new(reference.place.clone(), "[reference] in a scene of [hamiltonian]")
+                    .valid("nothing: a reference has positions of bodies"),
+            );
+        }
+        let built = PhaseSystem::new(energy?, (coordinates, momenta), start, momentum);
+        let refused = |error| {
+            self.wrong(Mistake::new(table.place.clone(), format!("{error}")).valid("finite numbers"));
+        };
+        let mut system = built.map_err(refused).ok()?;
+        system.questions = questions?;
+        Some(system)
+    }
+
+    fn phase_expression(&mut self, record: &Record, key: &'static str, names: &Names) -> Option<Expression> {
+        record.text(key)?;
+        expression::of_key(record, key, names, Dimension::NONE).map_err(|mistake| self.wrong(*mistake)).ok()
+    }
+
+    fn phase_questions(&mut self, scene: &Record, names: &Names) -> Option<PhaseQuestions> {
+        let tolerance = scene.record("integrator").and_then(|table| table.number("tolerance")).unwrap_or(TOLERANCE);
+        let Some(asked) = scene.record("questions") else {
+            return Some(PhaseQuestions { tolerance, ..PhaseQuestions::default() });
+        };
+        let section = if asked.has("section") {
+            let surface = self.phase_expression(asked, "section", names)?;
+            Some((PhaseExpression(surface), asked.count("crossings")? as usize))
+        } else {
+            None
+        };
+        Some(PhaseQuestions { section, exponent: asked.flag("exponent")?, tolerance })
+    }
+
+    /// The questions to a mechanism.
+    pub(super) fn mechanism_questions(&mut self, scene: &Record) -> Option<MechanismQuestions> {
+        let Some(asked) = scene.record("questions") else { return Some(MechanismQuestions::default()) };
+        let questions = MechanismQuestions {
+            equilibrium: asked.flag("equilibrium")?,
+            modes: asked.flag("modes")?,
+            energies: asked.flag("energies")?,
+        };
+        let small = [("equilibrium", questions.equilibrium), ("modes", questions.modes)];
+        if let Some((key, _)) = small.into_iter().find(|(_, asked)| *asked && scene.has("constraint")) {
+            self.wrong(
+                Mistake::new(asked.place_of(key), format!("`{key}` under a [[constraint]]"))
+                    .valid("a mechanism of joints alone: small motions under multipliers are not there yet"),
+            );
+            return None;
+        }
+        Some(questions)
+    }
+
+    /// Refuses questions to what has no answer to them.
+    pub(super) fn answerable(&mut self, scene: &Record) {
+        let Some(asked) = scene.record("questions") else { return };
+        let of = [
+            ("section", "hamiltonian"),
+            ("crossings", "hamiltonian"),
+            ("exponent", "hamiltonian"),
+            ("equilibrium", "mechanism"),
+            ("modes", "mechanism"),
+            ("energies", "mechanism"),
+        ];
+        for (key, kind) in of.into_iter().filter(|(key, kind)| asked.has(key) && !scene.has(kind)) {
+            self.wrong(
+                Mistake::new(asked.place_of(key), format!("`{key}` is no question to this scene"))
+                    .valid(format!("a scene of [{kind}]")),
+            );
+        }
+    }
+}

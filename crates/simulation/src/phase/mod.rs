@@ -1,0 +1,163 @@
+//! Hamiltonians H(q, p, t) made of data: an expression of coordinates, momenta and time.
+//!
+//! ```text
+//! q̇ = ∂H/∂p        ṗ = −∂H/∂q        dH/dt = ∂H/∂t
+//! ```
+
+mod questions;
+
+use piola_hamiltonian::{HamiltonianError, PhaseFunction, hessian};
+use piola_integrators::Separable;
+use piola_numerics::Real;
+
+use crate::SimulationError;
+use crate::expression::{Expression, Variable};
+use crate::forces::{exists, in_coordinates};
+use crate::joints::finite;
+
+pub use questions::{PhaseAnswers, PhaseQuestions};
+
+/// A function of coordinates, momenta and time as an expression: [`Variable::Conjugate`] are the momenta.
+///
+/// # Example
+/// See [`PhaseSystem`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct PhaseExpression(pub Expression);
+
+impl PhaseFunction for PhaseExpression {
+    fn value<T: Real>(&self, q: &[T], p: &[T], t: T) -> T {
+        self.0.evaluate(&|variable| match variable {
+            Variable::Coordinate(i) => q[i],
+            Variable::Conjugate(i) => p[i],
+            Variable::Time => t,
+        })
+    }
+}
+
+/// A system given by its Hamiltonian, with its state at the start.
+///
+/// # Example
+/// An oscillator, H = ½ (p² + q²).
+/// ```
+/// use piola_simulation::expression::{Expression, ExpressionNode as Node, Operation, Variable};
+/// use piola_simulation::phase::PhaseSystem;
+/// let nodes = vec![
+///     Node::Constant(0.5),
+///     Node::Variable(Variable::Conjugate(0)),
+///     Node::WholePower(1, 2),
+///     Node::Variable(Variable::Coordinate(0)),
+///     Node::WholePower(3, 2),
+///     Node::Operation(Operation::Sum, 2, 4),
+///     Node::Operation(Operation::Product, 0, 5),
+/// ];
+/// let names = (vec!["q".into()], vec!["p".into()]);
+/// let oscillator = PhaseSystem::new(Expression::new(nodes)?, names, vec![3.0], vec![4.0])?;
+/// assert!(oscillator.hamiltonian.0.is_separable());
+/// assert_eq!(oscillator.turn(0.0), Some(std::f64::consts::TAU));
+/// # Ok::<(), piola_simulation::SimulationError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct PhaseSystem {
+    /// H(q, p, t).
+    pub hamiltonian: PhaseExpression,
+    /// Names of the coordinates.
+    pub coordinates: Vec<String>,
+    /// Names of the momenta.
+    pub momenta: Vec<String>,
+    /// q at the start.
+    pub position: Vec<f64>,
+    /// p at the start.
+    pub momentum: Vec<f64>,
+    /// What is asked besides the motion.
+    pub questions: PhaseQuestions,
+}
+
+impl PhaseSystem {
+    /// The system of a Hamiltonian, names of coordinates and momenta, and a state.
+    ///
+    /// # Errors
+    /// [`SimulationError::WrongLength`], [`SimulationError::NotFinite`], [`SimulationError::NoSuchCoordinate`].
+    pub fn new(
+        hamiltonian: Expression,
+        (coordinates, momenta): (Vec<String>, Vec<String>),
+        position: Vec<f64>,
+        momentum: Vec<f64>,
+    ) -> Result<Self, SimulationError> {
+        let expected = position.len();
+        if expected == 0 {
+            exists("hamiltonian", 0, 0)?;
+        }
+        for (quantity, found) in
+            [("coordinates", coordinates.len()), ("momenta", momenta.len()), ("momentum", momentum.len())]
+        {
+            if found != expected {
+                return Err(SimulationError::WrongLength { quantity, expected, found });
+            }
+        }
+        finite("position", position.iter().copied())?;
+        finite("momentum", momentum.iter().copied())?;
+        in_coordinates("hamiltonian", &hamiltonian, expected)?;
+        let (hamiltonian, questions) = (PhaseExpression(hamiltonian), PhaseQuestions::default());
+        Ok(Self { hamiltonian, coordinates, momenta, position, momentum, questions })
+    }
+
+    /// The number of degrees of freedom.
+    #[must_use]
+    pub fn freedom(&self) -> usize {
+        self.position.len()
+    }
+
+    /// About the shortest period of small motions at the start, s: 2π/√(|∂²H/∂p²| |∂²H/∂q²|); none where one of them is zero.
+    #[must_use]
+    pub fn turn(&self, t: f64) -> Option<f64> {
+        let n = self.freedom();
+        let second = hessian(&self.hamiltonian, &self.position, &self.momentum, t).ok()?;
+        let size = |first: usize| second.view((first, first), (n, n)).norm();
+        let rate = (size(0) * size(n)).sqrt();
+        (0.0 < rate && rate.is_finite()).then(|| core::f64::consts::TAU / rate)
+    }
+}
+
+/// H = T(p) + V(q) as a pair for explicit symplectic methods.
+pub(crate) struct Split<'s> {
+    pub(crate) system: &'s PhaseSystem,
+}
+
+impl Split<'_> {
+    fn partial(&self, by: Variable, q: &[f64], p: &[f64], t: f64) -> Result<f64, HamiltonianError> {
+        // Of a separable H each derivative reads one half of the state: the other half may be anything.
+        let read = |variable| match variable {
+            Variable::Coordinate(i) => q.get(i).copied().unwrap_or(0.0),
+            Variable::Conjugate(i) => p.get(i).copied().unwrap_or(0.0),
+            Variable::Time => t,
+        };
+        let slope = self.system.hamiltonian.0.partial(by, &read).tangent;
+        if slope.is_finite() {
+            return Ok(slope);
+        }
+        let (Variable::Coordinate(index) | Variable::Conjugate(index)) = by else {
+            return Err(HamiltonianError::NotFinite { quantity: "dH", index: 0, value: slope });
+        };
+        Err(HamiltonianError::NotFinite { quantity: "dH", index, value: slope })
+    }
+}
+
+impl Separable for Split<'_> {
+    type Error = HamiltonianError;
+    fn freedom(&self) -> usize {
+        self.system.freedom()
+    }
+    fn velocity(&mut self, t: f64, momentum: &[f64], velocity: &mut [f64]) -> Result<(), HamiltonianError> {
+        for (i, velocity) in velocity.iter_mut().enumerate() {
+            *velocity = self.partial(Variable::Conjugate(i), &[], momentum, t)?;
+        }
+        Ok(())
+    }
+    fn force(&mut self, t: f64, position: &[f64], force: &mut [f64]) -> Result<(), HamiltonianError> {
+        for (i, force) in force.iter_mut().enumerate() {
+            *force = -self.partial(Variable::Coordinate(i), position, &[], t)?;
+        }
+        Ok(())
+    }
+}

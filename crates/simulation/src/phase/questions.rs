@@ -1,0 +1,120 @@
+//! Questions to a Hamiltonian: sections and exponents.
+
+use core::ops::ControlFlow;
+
+use piola_hamiltonian::{LyapunovExponents, PhasePoint, PoincareSection, lyapunov_exponents_observed};
+use piola_integrators::Tolerance;
+
+use super::{PhaseExpression, PhaseSystem};
+use crate::Outcome;
+use crate::motion::TimeSpan;
+
+/// Intervals after which variations are made of length one again.
+const INTERVALS: usize = 400;
+
+/// What is asked of a Hamiltonian besides its motion.
+///
+/// # Example
+/// See [`PhaseSystem::answers`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PhaseQuestions {
+    /// The surface s(q, p) = 0 of a Poincaré section, crossed upwards, and the most crossings that are sought.
+    pub section: Option<(PhaseExpression, usize)>,
+    /// Whether the largest Lyapunov exponent is estimated.
+    pub exponent: bool,
+    /// Relative tolerance of a step for both.
+    pub tolerance: f64,
+}
+
+/// The answers, as far as they came.
+///
+/// # Example
+/// See [`PhaseSystem::answers`].
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct PhaseAnswers {
+    /// Crossings of the section: time, then q and p.
+    pub crossings: Vec<(f64, Vec<f64>)>,
+    /// The estimate of the largest exponent, 1/s, at the end, and over time: (time, estimate).
+    pub exponent: Option<f64>,
+    /// Its estimates over time: (s since the start, 1/s).
+    pub estimates: Vec<[f64; 2]>,
+}
+
+impl PhaseSystem {
+    /// The answers to the questions over a span of time. The observer gets the part that is done and may stop the search.
+    ///
+    /// # Example
+    /// An oscillator from q = 3, p = 4 crosses q = 0 upwards once a turn, with p = 5.
+    /// ```
+    /// use piola_simulation::expression::{Expression, ExpressionNode as Node, Operation, Variable};
+    /// use piola_simulation::motion::TimeSpan;
+    /// use piola_simulation::phase::{PhaseExpression, PhaseQuestions, PhaseSystem};
+    /// use std::ops::ControlFlow;
+    /// let nodes = vec![
+    ///     Node::Constant(0.5),
+    ///     Node::Variable(Variable::Conjugate(0)),
+    ///     Node::WholePower(1, 2),
+    ///     Node::Variable(Variable::Coordinate(0)),
+    ///     Node::WholePower(3, 2),
+    ///     Node::Operation(Operation::Sum, 2, 4),
+    ///     Node::Operation(Operation::Product, 0, 5),
+    /// ];
+    /// let names = (vec!["q".into()], vec!["p".into()]);
+    /// let mut oscillator = PhaseSystem::new(Expression::new(nodes)?, names, vec![3.0], vec![4.0])?;
+    /// let q = PhaseExpression(Expression::new(vec![Node::Variable(Variable::Coordinate(0))])?);
+    /// oscillator.questions = PhaseQuestions { section: Some((q, 10)), exponent: false, tolerance: 1e-12 };
+    /// let span = TimeSpan { start: 0.0, end: 20.0 };
+    /// let (answers, _) = oscillator.answers(span, &mut |_| ControlFlow::Continue(()));
+    /// assert_eq!(answers.crossings.len(), 3);
+    /// assert!((answers.crossings[2].1[1] - 5.0).abs() < 1e-10);
+    /// # Ok::<(), piola_simulation::SimulationError>(())
+    /// ```
+    pub fn answers(&self, span: TimeSpan, observer: &mut dyn FnMut(f64) -> ControlFlow<()>) -> (PhaseAnswers, Outcome) {
+        let mut answers = PhaseAnswers::default();
+        let mut stopped = false;
+        let mut watch = |share: f64| {
+            let go = observer(share);
+            stopped |= go.is_break();
+            go
+        };
+        let found = self.find(&mut answers, span, &mut watch);
+        let outcome = match found {
+            Err(why) => Outcome::Failed(why),
+            Ok(()) if stopped => Outcome::Interrupted,
+            Ok(()) => Outcome::Completed,
+        };
+        (answers, outcome)
+    }
+
+    fn find(
+        &self,
+        answers: &mut PhaseAnswers,
+        span: TimeSpan,
+        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<(), String> {
+        let PhaseQuestions { section, exponent, tolerance } = &self.questions;
+        let start = PhasePoint::new(&self.position, &self.momentum, span.start).map_err(|error| error.to_string())?;
+        if let Some((surface, most)) = section {
+            let tolerance = Tolerance::relative(*tolerance).map_err(|error| error.to_string())?;
+            let section = PoincareSection::new(&self.hamiltonian, surface, tolerance);
+            let mut points = Vec::new();
+            let followed = section.follow_observed_into(&start, span.end, *most, &mut points, |t| {
+                watch((t - span.start) / (span.end - span.start))
+            });
+            answers.crossings = points.iter().map(|point| (point.time(), [point.q(), point.p()].concat())).collect();
+            followed.map_err(|error| format!("the section: {error}"))?;
+        }
+        if *exponent && watch(0.0).is_continue() {
+            let tolerance = Tolerance::relative(*tolerance).map_err(|error| error.to_string())?;
+            let intervals = (span.length() / INTERVALS as f64, INTERVALS);
+            let done = |count: usize| watch(count as f64 / INTERVALS as f64);
+            let found = lyapunov_exponents_observed(&self.hamiltonian, &start, 1, intervals, tolerance, done);
+            let LyapunovExponents { exponents, times, history, .. } =
+                found.map_err(|error| format!("the Lyapunov exponent: {error}"))?;
+            answers.exponent = exponents.first().copied();
+            answers.estimates = times.into_iter().zip(history).map(|(t, estimate)| [t, estimate]).collect();
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,220 @@
+//! Hamiltonians made of expressions, and questions to mechanisms, beside closed forms.
+
+use core::f64::consts::TAU;
+use core::ops::ControlFlow;
+
+use piola_integrators::Order;
+use piola_simulation::expression::{Expression, ExpressionNode as Node, Function, Operation, Variable};
+use piola_simulation::forces::{Force, ForceKind};
+use piola_simulation::joints::{Coordinate, Joint, JointMotion, Mechanism, Part, PartKind};
+use piola_simulation::motion::{Method, MotionRun, System, TimeSpan, Timetable, simulate};
+use piola_simulation::phase::{PhaseExpression, PhaseQuestions, PhaseSystem};
+use piola_simulation::questions::{MechanismQuestions, Stability};
+use piola_simulation::{Outcome, SimulationError};
+use piola_testkit::{Tol, assert_close};
+
+const Q: Node = Node::Variable(Variable::Coordinate(0));
+const P: Node = Node::Variable(Variable::Conjugate(0));
+
+fn expression(nodes: Vec<Node>) -> Expression {
+    Expression::new(nodes).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn system(nodes: Vec<Node>, q: f64, p: f64) -> PhaseSystem {
+    let names = (vec!["q".into()], vec!["p".into()]);
+    PhaseSystem::new(expression(nodes), names, vec![q], vec![p]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// ½ p² and then what follows, from node 4 on, which is added.
+fn kinetic_and(rest: Vec<Node>) -> Vec<Node> {
+    let half = vec![Node::Constant(0.5), P, Node::WholePower(1, 2), Node::Operation(Operation::Product, 0, 2)];
+    let last = 3 + rest.len();
+    half.into_iter().chain(rest).chain([Node::Operation(Operation::Sum, 3, last)]).collect()
+}
+
+/// ½ p² − cos q.
+fn pendulum() -> PhaseSystem {
+    system(kinetic_and(vec![Q, Node::Function(Function::Cos, 4), Node::Negative(5)]), 1.2, 0.3)
+}
+
+fn attempt(system: &PhaseSystem, method: Method, end: f64) -> MotionRun {
+    let timetable = Timetable::new(TimeSpan { start: 0.0, end }, 11, &[]);
+    simulate(&System::Phase(Box::new(system.clone())), method, &timetable, &mut |_| ControlFlow::Continue(()))
+}
+
+fn run(system: &PhaseSystem, method: Method, end: f64) -> MotionRun {
+    let run = attempt(system, method, end);
+    assert_eq!(run.outcome, Outcome::Completed);
+    run
+}
+
+const FINE: Method = Method::DormandPrince { tolerance: 1e-13 };
+
+fn drift(run: &MotionRun) -> f64 {
+    run.history.drifts().energy.map_or(f64::NAN, |drift| drift.max_relative)
+}
+
+#[test]
+fn methods_agree_under_a_hamiltonian_and_keep_its_energy() {
+    let adaptive = run(&pendulum(), FINE, 20.0);
+    let fixed = [
+        Method::Composition { order: Order::Eight, step: 0.02 },
+        Method::GaussLegendre { order: Order::Eight, step: 0.02 },
+    ];
+    for method in fixed {
+        let run = run(&pendulum(), method, 20.0);
+        for (one, other) in run.history.coordinates.iter().zip(&adaptive.history.coordinates) {
+            assert_close("state", one, other, Tol::stated(1e-11, "both to 1e-14 a step over a thousand steps"));
+        }
+        assert_close("drift", &[drift(&run)], &[0.0], Tol::stated(1e-13, "rounding of a thousand steps"));
+    }
+    assert_eq!(adaptive.history.coordinate_names, ["q", "p"]);
+    assert!(adaptive.history.names.is_empty() && adaptive.history.works.is_empty());
+}
+
+#[test]
+fn a_driven_hamiltonian_gains_what_its_time_brings_in() {
+    // H = ½ p² − 2 t q: p = p₀ + t², q = q₀ + p₀ t + t³/3.
+    let nodes = kinetic_and(vec![
+        Node::Constant(-2.0),
+        Node::Variable(Variable::Time),
+        Node::Operation(Operation::Product, 4, 5),
+        Q,
+        Node::Operation(Operation::Product, 6, 7),
+    ]);
+    let run = run(&system(nodes, 0.5, 0.25), FINE, 3.0);
+    let last = run.history.coordinates.last().unwrap_or_else(|| panic!("no record"));
+    assert_close(
+        "state",
+        last,
+        &[0.5 + 0.75 + 9.0, 9.25],
+        Tol::stated(1e-13, "of a polynomial that the method takes exactly"),
+    );
+    assert_close("drift", &[drift(&run)], &[0.0], Tol::stated(1e-13, "of sums of size fifty"));
+    assert_eq!(run.history.work_names.len(), 1);
+}
+
+#[test]
+fn a_composition_refuses_what_is_not_separable() {
+    // ½ p² + p q
+    let nodes = kinetic_and(vec![P, Q, Node::Operation(Operation::Product, 4, 5)]);
+    let outcome = attempt(&system(nodes, 1.0, 1.0), Method::Composition { order: Order::Four, step: 0.1 }, 1.0).outcome;
+    assert!(matches!(&outcome, Outcome::Failed(why) if why.contains("needs H = T(p) + V(q)")), "{outcome:?}");
+    let names = || (vec!["q".to_string()], vec!["p".to_string()]);
+    let refused = |expression, q, p| PhaseSystem::new(expression, names(), q, p).err();
+    let wrong = SimulationError::WrongLength { quantity: "momentum", expected: 1, found: 2 };
+    assert_eq!(refused(expression(vec![Q]), vec![1.0], vec![1.0, 2.0]), Some(wrong));
+    let far = expression(vec![Node::Variable(Variable::Coordinate(3))]);
+    let wrong = SimulationError::NoSuchCoordinate { quantity: "hamiltonian", coordinate: 3, coordinates: 1 };
+    assert_eq!(refused(far, vec![1.0], vec![1.0]), Some(wrong));
+}
+
+#[test]
+fn neighbours_of_a_pencil_on_its_tip_part_with_its_rate() {
+    // ½ p² − ½ k q² with k = 0.25: λ = ½.
+    let nodes =
+        kinetic_and(vec![Node::Constant(-0.125), Q, Node::WholePower(5, 2), Node::Operation(Operation::Product, 4, 6)]);
+    let mut pencil = system(nodes, 0.0, 0.0);
+    pencil.questions = PhaseQuestions { section: None, exponent: true, tolerance: 1e-11 };
+    let mut shares = Vec::new();
+    let (answers, outcome) = pencil.answers(TimeSpan { start: 0.0, end: 400.0 }, &mut |share| {
+        shares.push(share);
+        ControlFlow::Continue(())
+    });
+    assert_eq!((outcome, answers.estimates.len(), shares.len()), (Outcome::Completed, 400, 401));
+    let tolerance = Tol::stated(1e-2, "the estimate converges as 1/t does, and t = 400 s");
+    assert_close("exponent", &[answers.exponent.unwrap_or_default()], &[0.5], tolerance);
+    let (answers, outcome) = pencil.answers(TimeSpan { start: 0.0, end: 400.0 }, &mut |_| ControlFlow::Break(()));
+    assert_eq!((outcome, answers.exponent), (Outcome::Interrupted, None));
+}
+
+#[test]
+fn an_oscillator_crosses_its_section_once_a_turn() {
+    let nodes =
+        kinetic_and(vec![Node::Constant(0.5), Q, Node::WholePower(5, 2), Node::Operation(Operation::Product, 4, 6)]);
+    let mut oscillator = system(nodes, 1.0, 0.0);
+    let section = Some((PhaseExpression(expression(vec![Q])), 3));
+    oscillator.questions = PhaseQuestions { section, exponent: false, tolerance: 1e-12 };
+    let (answers, _) = oscillator.answers(TimeSpan { start: 0.0, end: 100.0 }, &mut |_| ControlFlow::Continue(()));
+    assert_eq!(answers.crossings.len(), 3);
+    for (turn, (t, point)) in answers.crossings.iter().enumerate() {
+        let tolerance = Tol::stated(1e-11, "the tolerance times some twenty steps");
+        assert_close("time", &[*t], &[0.75 * TAU + TAU * turn as f64], tolerance);
+        assert_close("point", point, &[0.0, 1.0], tolerance);
+    }
+}
+
+/// A chain of two rods of 1 m with masses of 1 kg, under 10 m/s².
+fn chain(angles: [f64; 2], forces: Vec<ForceKind>) -> Mechanism {
+    let joint = |parent: Option<usize>, position: f64| {
+        let coordinate = Coordinate { name: "q".into(), angular: true, position, velocity: 0.3 };
+        let offset = [0.0, 0.0, if parent.is_some() { -1.0 } else { 0.0 }];
+        Joint { parent, offset, motion: JointMotion::Revolute([0.0, -1.0, 0.0]), coordinates: vec![coordinate] }
+    };
+    let part = |joint| Part { joint, name: format!("m{joint}"), at: [0.0, 0.0, -1.0], kind: PartKind::Particle(1.0) };
+    let named = |kind| Force { name: "it".into(), kind };
+    let mut chain = Mechanism::new(
+        vec![joint(None, angles[0]), joint(Some(0), angles[1])],
+        vec![part(0), part(1)],
+        [0.0, 0.0, -10.0],
+    )
+    .and_then(|chain| chain.with_forces(forces.into_iter().map(named).collect()))
+    .unwrap_or_else(|error| panic!("{error}"));
+    chain.questions = MechanismQuestions { equilibrium: true, modes: true, energies: true };
+    chain
+}
+
+#[test]
+fn a_chain_has_its_modes_and_its_stability() {
+    let hanging = chain([0.2, -0.1], vec![]).answers(0.0).unwrap_or_else(|error| panic!("{error}"));
+    assert_close("equilibrium", &hanging.coordinates, &[0.0, 0.0], Tol::ulps(8.0));
+    let found: Vec<f64> = hanging.modes.iter().map(|mode| mode.angular_frequency.powi(2)).collect();
+    let root = 2.0_f64.sqrt();
+    assert_close("ω²", &found, &[10.0 * (2.0 - root), 10.0 * (2.0 + root)], Tol::ulps(64.0));
+    assert_eq!(hanging.stability, Stability::Stable);
+    let standing = chain([3.0, 0.1], vec![]).answers(0.0).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(standing.stability, Stability::Unstable);
+    assert!(standing.modes.iter().all(|mode| 0.0 < mode.growth_rate && mode.angular_frequency <= 0.0));
+}
+
+#[test]
+fn a_damped_spring_has_a_complex_mode() {
+    // q̈ + 6 q̇ + 25 q = 0 on a rail: −3 ± 4 i.
+    let slide = Coordinate { name: "slide".into(), angular: false, position: 1.0, velocity: 0.0 };
+    let motion = JointMotion::Prismatic([1.0, 0.0, 0.0]);
+    let joint = Joint { parent: None, offset: [0.0; 3], motion, coordinates: vec![slide] };
+    let block = Part { joint: 0, name: "block".into(), at: [0.0; 3], kind: PartKind::Particle(2.0) };
+    let kind = ForceKind::JointSpring { coordinate: 0, stiffness: 50.0, rest: 0.25, damping: 12.0 };
+    let mut block = Mechanism::new(vec![joint], vec![block], [0.0; 3])
+        .and_then(|block| block.with_forces(vec![Force { name: "spring".into(), kind }]))
+        .unwrap_or_else(|error| panic!("{error}"));
+    block.questions.modes = true;
+    let answers = block.answers(0.0).unwrap_or_else(|error| panic!("{error}"));
+    assert_close("equilibrium", &answers.coordinates, &[0.25], Tol::ulps(4.0));
+    let mode = &answers.modes[0];
+    assert_close("mode", &[mode.growth_rate, mode.angular_frequency], &[-3.0, 4.0], Tol::ulps(16.0));
+    assert_eq!((answers.stability, answers.modes.len()), (Stability::Asymptotic, 1));
+}
+
+#[test]
+fn energies_by_part_add_up_to_the_energy() {
+    let system =
+        chain([0.7, 0.4], vec![ForceKind::JointSpring { coordinate: 1, stiffness: 3.0, rest: 0.1, damping: 0.0 }]);
+    let timetable = Timetable::new(TimeSpan { start: 0.0, end: 1.0 }, 6, &[]);
+    let method = Method::GaussLegendre { order: Order::Eight, step: 0.05 };
+    let run = simulate(&System::Mechanism(Box::new(system)), method, &timetable, &mut |_| ControlFlow::Continue(()));
+    let expected = [
+        "kinetic energy of m0 (J)",
+        "weight of m0 (J)",
+        "kinetic energy of m1 (J)",
+        "weight of m1 (J)",
+        "energy of it (J)",
+    ];
+    assert_eq!(run.history.energy_names, expected);
+    let mut compared = 0;
+    for (row, invariants) in run.history.energies.iter().zip(&run.history.invariants) {
+        assert_close("energy", &[row.iter().sum()], &[invariants.energy], Tol::ulps(32.0));
+        compared += 1;
+    }
+    assert_eq!(compared, 6);
+}
