@@ -13,7 +13,7 @@ const fn vector(dimension: D) -> Kind {
 }
 
 /// The kinds of scenes.
-pub static SCENE_KINDS: [SceneKind; 12] = [
+pub static SCENE_KINDS: [SceneKind; 13] = [
     motion("gravity", &["body"]),
     motion("mechanism", &["joint", "particle", "rigid_body", "force", "constraint", "parameters", "questions"]),
     motion("central", &["body"]),
