@@ -297,7 +297,7 @@ table! {
         /// Step of a method of fixed step; chosen by the planner when absent.
         step: quantity(D::TIME, Positive), Optional;
         /// Relative tolerance of a step of an adaptive method, at least 4.5e-16. When absent 1e-12 for bodies that attract each other,
-        /// 1e-15 for mechanisms, 4.4e-16 about a fixed centre: the plan shows it.
+        /// 1e-15 for mechanisms, 1e-14 under a Hamiltonian, 4.4e-16 about a fixed centre: the plan shows it.
         tolerance: quantity(D::NONE, Fraction), Optional;
     }
 }
