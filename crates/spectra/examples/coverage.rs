@@ -4,6 +4,8 @@
 //! cargo run --release -p piola-spectra --example coverage -- 200
 //! ```
 
+#![expect(clippy::print_stdout, reason = "the tables are what the program is for")]
+
 use piola_spectra::{
     RelaxationMode, RelaxationSpectrum, RetardationSpectrum, SpectrumData, SpectrumOptions, fit_continuous,
     fit_spectrum,
@@ -101,14 +103,14 @@ fn share(inside: usize, of: usize) -> f64 {
 }
 
 /// Intervals of all parameters of a discrete spectrum.
-fn discrete(name: &str, kind: Kind, truth: &RelaxationSpectrum, window: [f64; 2], noise: f64, tables: u64) {
+fn discrete(name: &str, kind: Kind, truth: &RelaxationSpectrum, window: [f64; 2], noise: f64, tables: u32) {
     let creep = RetardationSpectrum::of(truth);
     let exact = Table::exact(kind, truth, window[0], window[1]);
     let count = if matches!(kind, Kind::Creep) { creep.modes().len() } else { truth.modes().len() };
     let equilibrium = !truth.is_liquid();
     let (mut inside, mut counted, mut same) = (Vec::new(), Vec::new(), 0_usize);
     for seed in 1..=tables {
-        let table = exact.noisy(noise, seed);
+        let table = exact.noisy(noise, u64::from(seed));
         let options = SpectrumOptions { equilibrium, ..SpectrumOptions::default() };
         let chosen = fit_spectrum(table.data(), options).expect("a spectrum");
         let modes = chosen.retardation.as_ref().map_or(chosen.spectrum.modes().len(), |r| r.spectrum.modes().len());
@@ -155,14 +157,14 @@ fn discrete(name: &str, kind: Kind, truth: &RelaxationSpectrum, window: [f64; 2]
 }
 
 /// The band of a continuous spectrum, at the nodes within the window of the data.
-fn continuous(name: &str, kind: Kind, density: &dyn Fn(f64) -> f64, window: [f64; 2], noise: f64, tables: u64) {
+fn continuous(name: &str, kind: Kind, density: &dyn Fn(f64) -> f64, window: [f64; 2], noise: f64, tables: u32) {
     let exact = Table::exact(kind, &smooth(density), window[0], window[1]);
     let (mut inside, mut counted, mut worst) = (0_usize, 0_usize, Vec::new());
     let (mut errors, mut halves): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
     let mut hits: Vec<usize> = Vec::new();
     let mut weights = Vec::new();
     for seed in 1..=tables {
-        let table = exact.noisy(noise, seed);
+        let table = exact.noisy(noise, u64::from(seed));
         let found = fit_continuous(table.data(), false).expect("a spectrum");
         weights.push(found.regularisation.log10());
         let nodes = found.times.iter().zip(&found.spectrum).zip(&found.band);
@@ -190,8 +192,7 @@ fn continuous(name: &str, kind: Kind, density: &dyn Fn(f64) -> f64, window: [f64
     for (errors, halves) in errors.iter_mut().zip(&mut halves) {
         errors.sort_by(f64::total_cmp);
         halves.sort_by(f64::total_cmp);
-        let at = |list: &[f64], part: f64| list[((list.len() - 1) as f64 * part).round() as usize];
-        worst.push(at(halves, 0.5) / at(errors, 0.95));
+        worst.push(halves[halves.len() / 2] / errors[errors.len() * 95 / 100]);
     }
     let most = worst.iter().fold(0.0_f64, |most, ratio| most.max(*ratio));
     let least = hits.iter().map(|h| share(*h, tables as usize)).fold(f64::INFINITY, f64::min);

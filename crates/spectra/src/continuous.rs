@@ -39,7 +39,7 @@ pub struct ContinuousSpectrum {
     pub fluidity: Option<f64>,
     /// λ: the weight of smoothness of the greatest likelihood.
     pub regularisation: f64,
-    /// tr J (JᵀJ + λ DᵀD)⁻¹ Jᵀ: the number of parameters that the data determine.
+    /// `tr J (JᵀJ + λ DᵀD)⁻¹ Jᵀ`: the number of parameters that the data determine.
     pub effective_parameters: f64,
     /// √(S/m): the relative error, root mean square.
     pub relative_error: f64,
@@ -114,7 +114,7 @@ impl Misfit for Smoothed<'_> {
 /// A spectrum of one λ.
 struct Candidate<'d> {
     end: End<Smoothed<'d>>,
-    /// The mean of (JᵀJ + λ DᵀD)⁻¹ and of its share from errors of the data.
+    /// The mean of `(JᵀJ + λ DᵀD)⁻¹` and of its share from errors of the data.
     covariance: DMatrix<f64>,
     squares: f64,
     /// S + λ Σ (…)².
@@ -158,7 +158,7 @@ fn candidate<'d>(misfit: Smoothed<'d>, start: Vec<f64>, stop: &dyn Fn() -> bool)
 /// longest. λ is the likeliest of 10⁻⁵, 10⁻⁴·⁵, …, 10², where second differences of ln H are normal numbers (generalised maximum
 /// likelihood). Cross-validation would choose far too rough a spectrum of one table in ten.
 ///
-/// The variance of the band is s² times the mean of (JᵀJ + λ DᵀD)⁻¹ and of its share from errors of the data; the λ tried are weighted by
+/// The variance of the band is s² times the mean of `(JᵀJ + λ DᵀD)⁻¹` and of its share from errors of the data; the λ tried are weighted by
 /// their likelihood. Ends of the spectrum that could be left out without the data's missing them have the lower end 0.
 ///
 /// # Errors

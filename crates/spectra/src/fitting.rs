@@ -3,7 +3,7 @@
 //! ```text
 //! S = Σ (model/measured − 1)²      over all measured numbers, G′ and G″ alike
 //! ```
-//! S is minimised over ln gᵢ, ln τᵢ and, where asked, ln Gₑ, so that all stay positive; of creep over ln Jₖ, ln λₖ, ln J_g and ln 1/η₀.
+//! S is minimised over ln gᵢ, ln τᵢ and, where asked, ln Gₑ, so that all stay positive; of creep over ln Jₖ, ln λₖ, ln `J_g` and ln 1/η₀.
 
 use core::cell::{Cell, RefCell};
 use core::ops::ControlFlow;
@@ -157,7 +157,7 @@ pub fn fit_spectrum_until(
     let SpectrumOptions { modes: asked, most_modes, equilibrium } = options;
     let terms = data.terms(equilibrium);
     // Without a mode a solid does not relax, and neither does a relaxation.
-    let fewest = usize::from(!(data.is_creep() && !equilibrium));
+    let fewest = usize::from(equilibrium || !data.is_creep());
     let (rows, least) = (data.count(), asked.unwrap_or(fewest));
     let most = asked.unwrap_or(most_modes);
     crate::error::check("number of modes", 0, most as f64, "0 < number of modes", fewest <= most.min(least))?;

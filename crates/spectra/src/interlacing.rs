@@ -8,7 +8,7 @@
 //! | from | x | pⱼ | wⱼ | c | d |
 //! |---|---|---|---|---|---|
 //! | relaxation | λ | τⱼ | gⱼ | Gₑ | 0 |
-//! | retardation | 1/τ | 1/λⱼ | Jⱼ | J_g | 1/η₀ |
+//! | retardation | 1/τ | 1/λⱼ | Jⱼ | `J_g` | 1/η₀ |
 //!
 //! A zero is kept as its distance from the nearer pole, so that no difference of near numbers is formed.
 

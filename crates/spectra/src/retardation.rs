@@ -30,7 +30,7 @@ pub struct RetardationMode {
 ///
 /// | symbol | meaning | unit | bounds |
 /// |---|---|---|---|
-/// | J_g | glassy compliance, also called J₀ | 1/Pa | 0 < `J_g` |
+/// | `J_g` | glassy compliance, also called J₀ | 1/Pa | 0 < `J_g` |
 /// | 1/η₀ | fluidity | 1/(Pa s) | 0 ≤ 1/η₀; zero for a solid |
 /// | Jₖ, λₖ | compliance and retardation time of a mode | 1/Pa, s | 0 < Jₖ, 0 < λₖ |
 ///

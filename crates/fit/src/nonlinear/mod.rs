@@ -285,7 +285,6 @@ pub fn fit_nonlinear_until(
             return NonlinearParameter { state: State::AtBound, ..none };
         }
         match (covariance.standard_error(k), quantile) {
-            (None, _) => none,
             (Some(_), None) => NonlinearParameter { state: State::NoDegreesOfFreedom, ..none },
             (Some(error), Some(quantile)) if quantile * error < LOST * (value - bounds[0]) => {
                 let interval = Some(interval(value, bounds, quantile * error));

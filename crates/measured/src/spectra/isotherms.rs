@@ -15,7 +15,7 @@ const ICE: f64 = 273.15;
 /// Rows by temperature, in the order in which they were measured, with notes on what is fitted together. The error is a range of
 /// temperatures, K, in which no isotherms can be told apart.
 pub(super) fn grouped(
-    mut rows: Vec<(Option<f64>, ResponseRow)>,
+    rows: &[(Option<f64>, ResponseRow)],
     response: Response,
 ) -> Result<(Vec<Isotherm>, Vec<String>), [f64; 2]> {
     // Stable: rows of one temperature stay in their order.
@@ -60,7 +60,6 @@ pub(super) fn grouped(
         notes.extend(told_of(&of, temperature, response));
         isotherms.push(Isotherm { temperature, rows: of });
     }
-    rows.clear();
     for isotherm in &mut isotherms {
         isotherm.rows.sort_by(|a, b| a.at.total_cmp(&b.at));
     }

@@ -3,7 +3,7 @@
 use core::fmt::Write as _;
 
 use piola_charts::{Folder, Written};
-use piola_spectra::{RetardationFit, RetardationMode};
+use piola_spectra::RetardationFit;
 use serde_json::{Value, json};
 
 use super::{MeasuredSpectrum, Response, SpectrumTable, Superposition, figure};
@@ -254,16 +254,17 @@ fn retardation_rows(creep: &RetardationFit) -> String {
 
 fn retardation(creep: &RetardationFit) -> Value {
     let intervals = creep.compliance_intervals.iter().zip(&creep.retardation_time_intervals);
-    let mode = |(mode, (compliance, time)): (&RetardationMode, (&Option<[f64; 2]>, &Option<[f64; 2]>))| {
-        json!({
+    let mut modes = Vec::new();
+    for (mode, (compliance, time)) in creep.spectrum.modes().iter().zip(intervals) {
+        modes.push(json!({
             "compliance": mode.compliance,
             "compliance_interval": compliance,
             "retardation_time": mode.retardation_time,
             "retardation_time_interval": time,
-        })
-    };
+        }));
+    }
     json!({
-        "modes": creep.spectrum.modes().iter().zip(intervals).map(mode).collect::<Vec<_>>(),
+        "modes": modes,
         "glassy_compliance": creep.spectrum.glassy_compliance(),
         "glassy_interval": creep.glassy_interval,
         "fluidity": creep.spectrum.fluidity(),

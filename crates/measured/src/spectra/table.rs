@@ -121,8 +121,9 @@ impl SpectrumTable {
         let notes: Vec<String> = other.notes.into_iter().filter(|note| !self.notes.contains(note)).collect();
         self.notes.extend(notes);
         let isotherms = self.isotherms.iter().chain(&other.isotherms);
-        let rows = isotherms.flat_map(|found| found.rows.iter().map(|row| (found.temperature, *row))).collect();
-        let (isotherms, notes) = grouped(rows, self.response).map_err(|[low, high]| MeasuredError::Argument {
+        let rows: Vec<(Option<f64>, ResponseRow)> =
+            isotherms.flat_map(|found| found.rows.iter().map(|row| (found.temperature, *row))).collect();
+        let (isotherms, notes) = grouped(&rows, self.response).map_err(|[low, high]| MeasuredError::Argument {
             argument: format!("{shown}: temperatures from {low} to {high} K"),
             valid: RAMP,
         })?;
@@ -169,7 +170,7 @@ fn parsed(text: &str) -> Result<Parsed, Vec<TableMistake>> {
     if !mistakes.is_empty() {
         return Err(mistakes);
     }
-    let (isotherms, more) = grouped(rows, columns.response).map_err(|[low, high]| {
+    let (isotherms, more) = grouped(&rows, columns.response).map_err(|[low, high]| {
         let what = format!("temperatures run from {low} to {high} K without a gap");
         vec![TableMistake::new(sheet.last, what, RAMP)]
     })?;

@@ -73,7 +73,7 @@ fn both_axes(noise: f64, seed: u64) -> [Vec<f64>; 4] {
     }
     let curve = |moduli| IsothermalCurve { angular_frequencies: &frequencies, moduli };
     let curves: Vec<_> = moduli.iter().map(|[storage, loss]| [curve(storage), curve(loss)]).collect();
-    let curves: Vec<&[IsothermalCurve<'_>]> = curves.iter().map(|pair| pair.as_slice()).collect();
+    let curves: Vec<&[IsothermalCurve<'_>]> = curves.iter().map(<[_; 2]>::as_slice).collect();
     let found = shifts_along_both_axes(&curves, 1).expect("shifts");
     let [along, across] =
         [found.iter().map(|s| s.ln_horizontal).collect(), found.iter().map(|s| s.ln_vertical).collect()];
