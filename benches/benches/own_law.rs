@@ -117,7 +117,7 @@ impl EnergyOfParameters<2> for GradedNeoHookean {
         [("shear_modulus", Bound::Positive), ("first_lame_parameter", Bound::Finite)];
     const SECOND: bool = false;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, &[mu, lambda]: &[T; 2], at: &impl Excesses<T>) -> T {
         let volume = at.ln_jacobian();
         T::lit(0.5) * (mu * at.first_excess() + lambda * volume * volume)
@@ -132,7 +132,7 @@ impl EnergyOfParameters<3> for GradedMooneyRivlin {
     const PARAMETERS: [(&'static str, Bound); 3] =
         [("c10", Bound::Positive), ("c01", Bound::NotNegative), ("square_coefficient", Bound::Positive)];
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, &[c10, c01, c]: &[T; 3], at: &impl Excesses<T>) -> T {
         let change = at.volume_change();
         c10 * at.first_excess() + c01 * at.second_excess() + c * (change * change + T::lit(2.0) * at.volume_excess())

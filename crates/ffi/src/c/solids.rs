@@ -139,7 +139,10 @@ pub unsafe extern "C" fn piola_solid_free(solid: *mut PiolaSolid) {
     }
 }
 
-/// The law, the deformations and the memory for one kind of numbers.
+/// A law, deformations and memory for one kind of numbers.
+type Evaluation<'a> = (&'a AnySolid, &'a [[f64; 9]], &'a mut [f64]);
+
+/// What an evaluation of one kind of numbers is given.
 ///
 /// # Safety
 /// See the [module](super).
@@ -149,7 +152,7 @@ unsafe fn evaluation<'a>(
     f_length: usize,
     out: *mut f64,
     out_length: usize,
-) -> Result<(&'a AnySolid, &'a [[f64; 9]], &'a mut [f64]), FfiError> {
+) -> Result<Evaluation<'a>, FfiError> {
     // SAFETY: as the caller promises.
     let (solid, f, out) =
         unsafe { (handle("solid", solid)?, slice("f", f, f_length)?, slice_mut("out", out, out_length)?) };

@@ -15,8 +15,11 @@ type Fallible = Result<(), Box<dyn Error>>;
 /// Of data without errors.
 const FOUND: Tol = Tol::stated(1e-8, "what the task asks; derivatives are differences over 1e-5");
 
+/// A model, its parameters, and tests.
+type Made = (AnyHistoryModel, Vec<f64>, Vec<HistoryTest>);
+
 /// A table of golden data as a test, and the model and the parameters that made it.
-fn golden_tests(name: &str) -> Result<(AnyHistoryModel, Vec<f64>, Vec<HistoryTest>), Box<dyn Error>> {
+fn golden_tests(name: &str) -> Result<Made, Box<dyn Error>> {
     let model: AnyHistoryModel = name.parse()?;
     let golden = golden::load("history_tables");
     let (mut tests, mut made) = (Vec::new(), Vec::new());
@@ -201,6 +204,7 @@ fn tables_starts_and_laws_without_an_answer_are_refused_by_name() -> Fallible {
     assert!(matches!(error, Err(FitError::StressNotFinite { index: 0, .. })));
 
     let test = HistoryTest::new("t", Loading::Uniaxial, &rows)?;
+    let only = core::slice::from_ref(&test);
     let model = AnyHistoryModel::OgdenRoxburgh;
     let (start, options) = ([1.0, 2.0, 2.0, 1.0, 0.1], HistoryOptions::default());
     let fit =
@@ -208,27 +212,27 @@ fn tables_starts_and_laws_without_an_answer_are_refused_by_name() -> Fallible {
     assert_eq!(fit(&[], &start, &options), Err(FitError::NoTests));
     let error = fit(&[test.clone(), test.clone()], &start, &options);
     assert!(matches!(error, Err(FitError::TestTwice { .. })));
-    let error = fit(&[test.clone()], &start[..4], &options);
+    let error = fit(only, &start[..4], &options);
     assert!(matches!(error, Err(FitError::NumberOfValues { parameters: 5, values: 4, .. })));
-    let error = fit(&[test.clone()], &start, &options);
+    let error = fit(only, &start, &options);
     assert!(matches!(error, Err(FitError::TooFewPoints { points: 2, parameters: 5, .. })));
-    let error = fit(&[test.clone()], &start, &options.clone().with_bounds("viscosity", [0.0, 1.0]));
+    let error = fit(only, &start, &options.clone().with_bounds("viscosity", [0.0, 1.0]));
     assert!(matches!(error, Err(FitError::UnknownParameter { .. })));
-    let error = fit(&[test.clone()], &start, &options.clone().with_bounds("share", [1.0, 0.5]));
+    let error = fit(only, &start, &options.clone().with_bounds("share", [1.0, 0.5]));
     assert!(matches!(error, Err(FitError::ImpossibleBounds { lower: 1.0, upper: 0.5, .. })));
     let mut certain = options.clone();
     certain.confidence = 1.0;
-    assert_eq!(fit(&[test.clone()], &start, &certain), Err(FitError::ConfidenceOutOfRange { value: 1.0 }));
+    assert_eq!(fit(only, &start, &certain), Err(FitError::ConfidenceOutOfRange { value: 1.0 }));
     let held =
         model.parameters()[2..].iter().fold(options, |options, (name, _, _)| options.with_bounds(name, [2.0; 2]));
-    let error = fit(&[test.clone()], &[f64::NAN, 2.0, 2.0, 2.0, 2.0], &held);
+    let error = fit(only, &[f64::NAN, 2.0, 2.0, 2.0, 2.0], &held);
     assert!(matches!(error, Err(FitError::Solids(_))), "{error:?}");
     assert!(matches!("maxwell".parse::<AnyHistoryModel>(), Err(FitError::UnknownHistoryModel { .. })));
     let error = model.stresses(&[1.0], &test, &StepControl::one_step());
     assert!(matches!(error, Err(FitError::NumberOfValues { parameters: 5, values: 1, .. })));
 
     // A model of one's own that forgets a row.
-    let error = fit_history(&Forgetful, &[test.clone()], &[1.0], &HistoryOptions::default());
+    let error = fit_history(&Forgetful, only, &[1.0], &HistoryOptions::default());
     assert_eq!(error, Err(FitError::WrongLength { quantity: "stresses of a model", expected: 2, found: 1 }));
 
     // A flow so fast that no step converges: the row is named, and where the increment ended.

@@ -57,7 +57,9 @@ impl EnergyOfInvariants for Uniform {
 const COUNT: usize = 19;
 
 /// Deformations, and parameters as structures of arrays.
-fn points() -> Result<(Vec<DeformationGradient>, [Vec<f64>; 4]), Box<dyn Error>> {
+type Points = (Vec<DeformationGradient>, [Vec<f64>; 4]);
+
+fn points() -> Result<Points, Box<dyn Error>> {
     let mut random = Random::new(5);
     let mut f = Vec::new();
     let mut parameters = [const { Vec::new() }; 4];
