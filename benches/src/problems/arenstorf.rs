@@ -30,8 +30,8 @@ impl Accelerations for Arenstorf {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn accelerations<T: Real>(&self, q: &[T], v: &[T], out: &mut [T]) {
         self.attraction(q, out);
-        out[0] = out[0] + (q[0] + (v[1] + v[1]));
-        out[1] = out[1] + (q[1] - (v[0] + v[0]));
+        out[0] += q[0] + (v[1] + v[1]);
+        out[1] += q[1] - (v[0] + v[0]);
     }
 }
 
