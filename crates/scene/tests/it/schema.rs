@@ -85,7 +85,9 @@ fn scenes_that_come_with_the_program_are_valid() {
         }
     }
     let has = |feature: bool, scenes: usize| if feature { scenes } else { 0 };
-    let least =
-        10 + has(cfg!(feature = "solutions"), 5) + has(cfg!(feature = "spectral"), 3) + has(cfg!(feature = "robots"), 3);
+    let least = 10
+        + has(cfg!(feature = "solutions"), 5)
+        + has(cfg!(feature = "spectral"), 3)
+        + has(cfg!(feature = "robots"), 3);
     assert!(least <= count, "{count} scenes");
 }

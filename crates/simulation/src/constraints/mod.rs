@@ -11,7 +11,7 @@ use piola_numerics::Real;
 
 use crate::SimulationError;
 use crate::expression::{Expression, Variable};
-use crate::forces::{AppliedForces, StoredEnergy, exists};
+use crate::forces::{AppliedForces, MechanismPotential, exists};
 use crate::joints::{Anchor, JointTree, Mechanism, finite};
 
 /// A constraint with its name.
@@ -65,7 +65,7 @@ pub struct MechanismConstraints<'m>(&'m Mechanism);
 /// # Example
 /// See [`Mechanism::with_constraints`].
 pub type ConstrainedMechanism<'m> =
-    Constrained<&'m JointTree, StoredEnergy<'m>, AppliedForces<'m>, MechanismConstraints<'m>>;
+    Constrained<&'m JointTree, MechanismPotential<'m>, AppliedForces<'m>, MechanismConstraints<'m>>;
 
 impl Mechanism {
     /// The mechanism under these constraints.

@@ -114,7 +114,7 @@ pub enum ForceKind {
 /// # Example
 /// See [`Mechanism::lagrangian`].
 #[derive(Debug, Clone, Copy)]
-pub struct StoredEnergy<'m>(&'m Mechanism);
+pub struct MechanismPotential<'m>(&'m Mechanism);
 
 /// All forces of a mechanism that no potential has.
 ///
@@ -127,7 +127,7 @@ pub struct AppliedForces<'m>(&'m Mechanism);
 ///
 /// # Example
 /// See [`Mechanism::lagrangian`].
-pub type MechanismLagrangian<'m> = Lagrangian<&'m JointTree, StoredEnergy<'m>, AppliedForces<'m>>;
+pub type MechanismLagrangian<'m> = Lagrangian<&'m JointTree, MechanismPotential<'m>, AppliedForces<'m>>;
 
 impl Mechanism {
     /// Lagrange's equations of the mechanism with gravity and all its forces.
@@ -138,12 +138,12 @@ impl Mechanism {
     pub fn lagrangian(&self) -> MechanismLagrangian<'_> {
         Lagrangian::of(&self.tree)
             .with_uniform_gravity(self.gravity)
-            .with_potential(StoredEnergy(self))
+            .with_potential(MechanismPotential(self))
             .with_forces(AppliedForces(self))
     }
 }
 
-impl Potential for StoredEnergy<'_> {
+impl Potential for MechanismPotential<'_> {
     fn potential<T: Real>(&self, q: &[T], _v: &[T], t: T) -> T {
         let mut sum = T::zero();
         for force in &self.0.forces {

@@ -84,8 +84,8 @@ fn sparse_runs_go_on_too() {
     let diffusion = super::large::Diffusion { side: 6, rows: 6 };
     let start = diffusion.start();
     let system = || {
-        let sparsity = Sparsity::of_field(&mut diffusion.clone(), 0.0, &start).unwrap();
-        SparseJacobian::new(diffusion.clone(), sparsity).unwrap()
+        let sparsity = Sparsity::of_field(&mut { diffusion }, 0.0, &start).unwrap();
+        SparseJacobian::new(diffusion, sparsity).unwrap()
     };
     assert!(2 < continue_from_all(&adaptive(1e-6), system, &start, 1.0, 3));
 }
