@@ -13,7 +13,6 @@
 #![forbid(unsafe_code)]
 
 mod error;
-mod expression;
 pub mod model;
 pub mod output;
 pub mod plan;

@@ -1,5 +1,7 @@
 //! What can be wrong with a mechanism.
 
+use piola_expression::ExpressionError;
+
 /// A condition that the data of a mechanism violate.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -64,22 +66,9 @@ pub enum SimulationError {
         /// The largest number allowed, [`DEEPEST`](crate::joints::DEEPEST).
         most: usize,
     },
-    /// A node of an expression takes one that does not stand before it, or that another node takes.
-    #[error("node {node} of an expression takes node {operand}, which must stand before it and be taken once")]
-    ExpressionOrder {
-        /// The index of the node.
-        node: usize,
-        /// The index that it takes.
-        operand: usize,
-    },
-    /// An expression of more levels than an evaluation follows.
-    #[error("an expression has {depth} levels; at most {most} are allowed")]
-    ExpressionTooDeep {
-        /// The number of levels.
-        depth: usize,
-        /// The largest number allowed, [`DEEPEST_EXPRESSION`](crate::expression::DEEPEST_EXPRESSION).
-        most: usize,
-    },
+    /// Nodes that are no expression.
+    #[error(transparent)]
+    Expression(#[from] ExpressionError),
     /// An index beyond the last coordinate.
     #[error("`{quantity}` has coordinate {coordinate}: the number of coordinates is {coordinates}")]
     NoSuchCoordinate {

@@ -4,7 +4,6 @@
 
 pub mod constraints;
 mod error;
-pub mod expression;
 pub mod forces;
 pub mod fronts;
 pub mod joints;
@@ -15,3 +14,4 @@ pub mod questions;
 
 pub use error::SimulationError;
 pub use outcome::Outcome;
+pub use piola_expression as expression;

@@ -18,11 +18,13 @@ mod columns;
 mod figure;
 mod isotherms;
 mod output;
+mod response;
 mod table;
 
 pub use card::{general_viscoelastic, prony};
 pub use piola_spectra::{RelaxationMode, RelaxationSpectrum, RetardationMode, RetardationSpectrum};
-pub use table::{Isotherm, Response, ResponseRow, SpectrumTable};
+pub use response::{Isotherm, Response, ResponseRow};
+pub use table::SpectrumTable;
 
 use core::ops::ControlFlow;
 

@@ -6,7 +6,7 @@ use piola_simulation::constraints::{Constraint, ConstraintKind};
 
 use super::Builder;
 use super::forces::Surroundings;
-use crate::expression;
+use piola_expression::text;
 
 impl Surroundings<'_> {
     fn tie(&self, record: &Record) -> Result<ConstraintKind, Box<Mistake>> {
@@ -14,7 +14,7 @@ impl Surroundings<'_> {
             "prescribed" => {
                 let coordinate = self.coordinate(record)?;
                 let dimension = if self.mechanism.angular[coordinate] { Dimension::ANGLE } else { Dimension::LENGTH };
-                let motion = expression::of_key(record, "motion", &self.names, dimension)?;
+                let motion = text::of_key(record, "motion", &self.names, dimension)?;
                 if motion.coordinates().max(motion.conjugates()) != 0 {
                     return Err(Mistake::new(record.place_of("motion"), "the motion depends on a coordinate")
                         .valid("an expression of t alone")

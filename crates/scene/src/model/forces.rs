@@ -2,12 +2,12 @@
 
 use piola_document::units::Dimension;
 use piola_document::{Mistake, Record, words};
-use piola_simulation::expression::Variable;
+use piola_expression::Variable;
 use piola_simulation::forces::{Force, ForceKind};
 use piola_simulation::joints::{Anchor, Mechanism};
 
 use super::Builder;
-use crate::expression::{self, Meaning, Names};
+use piola_expression::text::{self, ExpressionNames, NameMeaning};
 
 /// Energy, J.
 const ENERGY: Dimension = Dimension::MOMENT;
@@ -17,7 +17,7 @@ pub(super) struct Surroundings<'m> {
     pub(super) mechanism: &'m Mechanism,
     /// Joints, then particles and rigid bodies.
     points: Vec<Point<'m>>,
-    pub(super) names: Names,
+    pub(super) names: ExpressionNames,
 }
 
 /// Something with a name that has a place.
@@ -48,10 +48,10 @@ impl<'m> Surroundings<'m> {
                 mass: part.number("mass"),
             });
         }
-        let mut names = Names::new(true);
+        let mut names = ExpressionNames::new(true);
         for (i, name) in mechanism.coordinates.iter().enumerate() {
             let dimension = if mechanism.angular[i] { Dimension::ANGLE } else { Dimension::LENGTH };
-            names.add(name, Meaning::Variable(Variable::Coordinate(i)), dimension);
+            names.add(name, NameMeaning::Variable(Variable::Coordinate(i)), dimension);
             names.add_rate(name, Variable::Conjugate(i), dimension.over(Dimension::TIME));
         }
         builder.parameters(scene, &mut names);
@@ -181,11 +181,11 @@ impl<'m> Surroundings<'m> {
             "motor" => {
                 let coordinate = self.coordinate(record)?;
                 let dimension = if self.mechanism.angular[coordinate] { Dimension::MOMENT } else { Dimension::FORCE };
-                let force = expression::of_key(record, "drive", &self.names, dimension)?;
+                let force = text::of_key(record, "drive", &self.names, dimension)?;
                 Some(ForceKind::Motor { coordinate, force })
             }
             _ => {
-                let energy = expression::of_key(record, "energy", &self.names, ENERGY)?;
+                let energy = text::of_key(record, "energy", &self.names, ENERGY)?;
                 if energy.conjugates() != 0 {
                     return Err(Mistake::new(record.place_of("energy"), "the stored energy depends on a rate")
                         .valid("an expression of coordinates and t; a force of rates is a motor")
@@ -209,9 +209,9 @@ impl<'m> Surroundings<'m> {
 
 impl Builder<'_> {
     /// Adds `[parameters]` to the names of expressions.
-    pub(crate) fn parameters(&mut self, scene: &Record, names: &mut Names) {
+    pub(crate) fn parameters(&mut self, scene: &Record, names: &mut ExpressionNames) {
         for parameter in scene.parameters("parameters") {
-            if !names.add(&parameter.name, Meaning::Number(parameter.value), parameter.dimension) {
+            if !names.add(&parameter.name, NameMeaning::Number(parameter.value), parameter.dimension) {
                 self.wrong(
                     Mistake::new(parameter.place.clone(), format!("the name `{}` is taken", parameter.name))
                         .valid("a name unlike t, pi, any coordinate and any function"),

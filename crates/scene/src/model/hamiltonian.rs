@@ -2,12 +2,12 @@
 
 use piola_document::units::Dimension;
 use piola_document::{Mistake, Record};
-use piola_simulation::expression::{Expression, Variable};
+use piola_expression::{Expression, Variable};
 use piola_simulation::phase::{PhaseExpression, PhaseQuestions, PhaseSystem};
 use piola_simulation::questions::MechanismQuestions;
 
 use super::Builder;
-use crate::expression::{self, Meaning, Names};
+use piola_expression::text::{self, ExpressionNames, NameMeaning};
 
 /// Relative tolerance of sections and exponents when none is asked for.
 const TOLERANCE: f64 = 1e-12;
@@ -21,7 +21,7 @@ impl Builder<'_> {
                     .valid("at least one [[coordinate]]"),
             );
         }
-        let mut names = Names::new(false);
+        let mut names = ExpressionNames::new(false);
         let (mut coordinates, mut momenta) = (Vec::new(), Vec::new());
         for (i, record) in records.iter().enumerate() {
             let name = record.text("name")?.to_string();
@@ -29,7 +29,7 @@ impl Builder<'_> {
             for (key, name, variable) in
                 [("name", &name, Variable::Coordinate(i)), ("momentum", &momentum, Variable::Conjugate(i))]
             {
-                if !names.add(name, Meaning::Variable(variable), Dimension::NONE) {
+                if !names.add(name, NameMeaning::Variable(variable), Dimension::NONE) {
                     self.wrong(
                         Mistake::new(record.place_of(key), format!("the name `{name}` is taken"))
                             .valid("a name unlike t, pi, any coordinate, momentum and function"),
@@ -71,12 +71,12 @@ impl Builder<'_> {
         Some(system)
     }
 
-    fn phase_expression(&mut self, record: &Record, key: &'static str, names: &Names) -> Option<Expression> {
+    fn phase_expression(&mut self, record: &Record, key: &'static str, names: &ExpressionNames) -> Option<Expression> {
         record.text(key)?;
-        expression::of_key(record, key, names, Dimension::NONE).map_err(|mistake| self.wrong(*mistake)).ok()
+        text::of_key(record, key, names, Dimension::NONE).map_err(|mistake| self.wrong(*mistake)).ok()
     }
 
-    fn phase_questions(&mut self, scene: &Record, names: &Names) -> Option<PhaseQuestions> {
+    fn phase_questions(&mut self, scene: &Record, names: &ExpressionNames) -> Option<PhaseQuestions> {
         let tolerance = scene.record("integrator").and_then(|table| table.number("tolerance")).unwrap_or(TOLERANCE);
         let Some(asked) = scene.record("questions") else {
             return Some(PhaseQuestions { tolerance, ..PhaseQuestions::default() });

@@ -6,52 +6,17 @@
 //! Multipliers λ are found with the accelerations ([`piola_lagrangian::constraints`]); their signs are turned so that they are
 //! the forces of [`MechanismConstraints::condition_names`].
 
+mod kinds;
+
+pub use kinds::{Constraint, ConstraintKind};
+
 use piola_lagrangian::constraints::{Constrained, Constraints};
 use piola_numerics::Real;
 
 use crate::SimulationError;
-use crate::expression::{Expression, Variable};
+use crate::expression::Variable;
 use crate::forces::{AppliedForces, MechanismPotential, exists};
 use crate::joints::{Anchor, JointTree, Mechanism, finite};
-
-/// A constraint with its name.
-///
-/// # Example
-/// See [`Mechanism::with_constraints`].
-#[derive(Debug, Clone, PartialEq)]
-pub struct Constraint {
-    /// Name.
-    pub name: String,
-    /// What it holds.
-    pub kind: ConstraintKind,
-}
-
-/// Kinds of constraints.
-///
-/// # Example
-/// See [`Mechanism::with_constraints`].
-#[derive(Debug, Clone, PartialEq)]
-pub enum ConstraintKind {
-    /// A massless rod between two points: φ = (|x₂ − x₁|² − l²)/(2 l).
-    Distance {
-        /// Its ends.
-        ends: [Anchor; 2],
-        /// Its length l, m, greater than zero.
-        length: f64,
-    },
-    /// A closed loop: two points are one, φ = x₂ − x₁.
-    Loop {
-        /// The points.
-        ends: [Anchor; 2],
-    },
-    /// A coordinate that moves as prescribed: φ = q − f(t).
-    Prescribed {
-        /// The coordinate.
-        coordinate: usize,
-        /// f, an expression of the time.
-        motion: Expression,
-    },
-}
 
 /// All constraints of a mechanism.
 ///

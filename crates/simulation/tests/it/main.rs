@@ -2,7 +2,6 @@
 
 mod constraints;
 mod drifts;
-mod expressions;
 mod forces;
 mod fronts;
 mod mechanism;

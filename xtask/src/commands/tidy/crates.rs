@@ -49,8 +49,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("registration", &["spectral"]),
     ("images", &["registration"]),
     ("piola", MECHANICS),
-    ("simulation", &["hamiltonian", "gravitation"]),
     ("document", &[]),
+    // document, by feature: expressions from text with units.
+    ("expression", &["numerics", "document"]),
+    ("simulation", &["hamiltonian", "gravitation", "expression"]),
     ("charts", &[]),
     ("measured", &["document", "charts", "spectra"]),
     // solutions, by feature: twisted rods.

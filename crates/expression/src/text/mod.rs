@@ -1,4 +1,4 @@
-//! Expressions of scenes: from text with units to [`Expression`]s.
+//! Expressions from text with units.
 //!
 //! ```text
 //! sum      product { (+ | -) product }
@@ -8,7 +8,7 @@
 //! ```
 //! `3 [N/m]` is a number with a unit; a number without one is a pure number. Both sides of a sum must have one dimension, and
 //! arguments of functions none; angles count as pure numbers. Only an expression that is one bare number takes the dimension
-//! that is needed, as numbers do everywhere in scenes.
+//! that is needed.
 //!
 //! The parser is our own: of the crates that parse formulas (`exmex`, `evalexpr`, `fasteval`, `meval`) none knows units, and
 //! only `exmex` differentiates, with floats as its scalars. Here a text is checked with its dimensions and becomes nodes that
@@ -22,36 +22,58 @@ use std::collections::BTreeMap;
 
 use piola_document::units::Dimension;
 use piola_document::{Mistake, Record, words};
-use piola_simulation::expression::{Expression, Variable};
+
+use crate::{Expression, Variable};
 
 /// What a name stands for.
+///
+/// # Example
+/// See [`ExpressionNames`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Meaning {
+pub enum NameMeaning {
+    /// A variable of the expression.
     Variable(Variable),
+    /// A number, in SI units.
     Number(f64),
 }
 
 /// The names that may stand in an expression, with their dimensions.
+///
+/// # Example
+/// ```
+/// use piola_document::units::Dimension;
+/// use piola_expression::Variable;
+/// use piola_expression::text::{ExpressionNames, NameMeaning, parse};
+/// let mut names = ExpressionNames::new(true);
+/// assert!(names.add("x", NameMeaning::Variable(Variable::Coordinate(0)), Dimension::LENGTH));
+/// // The energy of a spring of 50 N/m; at x = 0.2 m it is 1 J.
+/// let energy = parse("25 [N/m] * x^2", &names, Dimension::FORCE.times(Dimension::LENGTH)).expect("an energy");
+/// assert!((energy.evaluate(&|_| 0.2) - 1.0).abs() < 1e-15);
+/// // A length is no energy, and the answer says so.
+/// let mistake = parse("25 * x", &names, Dimension::FORCE).expect_err("a length");
+/// assert!(mistake.found.contains("instead of"), "{}", mistake.found);
+/// ```
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Names {
-    meanings: BTreeMap<String, (Meaning, Dimension)>,
+pub struct ExpressionNames {
+    meanings: BTreeMap<String, (NameMeaning, Dimension)>,
     /// Rates by the names of coordinates: `rate(name)`.
     rates: BTreeMap<String, (Variable, Dimension)>,
     /// Whether dimensions are checked and units allowed.
     with_units: bool,
 }
 
-impl Names {
-    /// No names but the time, whose dimension is checked where units are.
-    pub(crate) fn new(with_units: bool) -> Self {
+impl ExpressionNames {
+    /// No names but the time `t` and `pi`. With units, dimensions are checked.
+    #[must_use]
+    pub fn new(with_units: bool) -> Self {
         let mut names = Self { with_units, ..Self::default() };
-        names.meanings.insert("t".into(), (Meaning::Variable(Variable::Time), Dimension::TIME));
-        names.meanings.insert("pi".into(), (Meaning::Number(core::f64::consts::PI), Dimension::NONE));
+        names.meanings.insert("t".into(), (NameMeaning::Variable(Variable::Time), Dimension::TIME));
+        names.meanings.insert("pi".into(), (NameMeaning::Number(core::f64::consts::PI), Dimension::NONE));
         names
     }
 
     /// Adds a name; false where it is taken.
-    pub(crate) fn add(&mut self, name: &str, meaning: Meaning, dimension: Dimension) -> bool {
+    pub fn add(&mut self, name: &str, meaning: NameMeaning, dimension: Dimension) -> bool {
         let free = !self.meanings.contains_key(name) && !parser::is_function(name);
         if free {
             self.meanings.insert(name.to_string(), (meaning, dimension));
@@ -60,7 +82,7 @@ impl Names {
     }
 
     /// Adds `rate(name)`.
-    pub(crate) fn add_rate(&mut self, name: &str, variable: Variable, dimension: Dimension) {
+    pub fn add_rate(&mut self, name: &str, variable: Variable, dimension: Dimension) {
         self.rates.insert(name.to_string(), (variable, dimension));
     }
 
@@ -69,29 +91,40 @@ impl Names {
     }
 }
 
-/// What is wrong with an expression.
+/// What is wrong with the text of an expression.
+///
+/// # Example
+/// See [`ExpressionNames`].
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Wrong {
-    pub(crate) found: String,
-    pub(crate) valid: String,
+pub struct ExpressionMistake {
+    /// What was found.
+    pub found: String,
+    /// What would be valid.
+    pub valid: String,
 }
 
-impl Wrong {
+impl ExpressionMistake {
     fn new(found: impl Into<String>, valid: impl Into<String>) -> Self {
         Self { found: found.into(), valid: valid.into() }
     }
 }
 
 /// The expression of a text, which must have the dimension `expected`.
-pub(crate) fn parse(text: &str, names: &Names, expected: Dimension) -> Result<Expression, Wrong> {
+///
+/// # Errors
+/// What cannot be read, with what would be valid.
+pub fn parse(text: &str, names: &ExpressionNames, expected: Dimension) -> Result<Expression, ExpressionMistake> {
     parser::parse(text, names, expected)
 }
 
-/// The expression of a key, or the mistake.
-pub(crate) fn of_key(
+/// The expression of a key of a record.
+///
+/// # Errors
+/// The mistake with its place.
+pub fn of_key(
     record: &Record,
     key: &'static str,
-    names: &Names,
+    names: &ExpressionNames,
     expected: Dimension,
 ) -> Result<Expression, Box<Mistake>> {
     let text = record.text(key).unwrap_or_default();
@@ -102,6 +135,6 @@ pub(crate) fn of_key(
 }
 
 /// The names that are known, as advice.
-fn one_of(name: &str, names: &Names) -> String {
+fn one_of(name: &str, names: &ExpressionNames) -> String {
     words::one_of(name, names.known())
 }

@@ -1,25 +1,15 @@
 //! Questions to a mechanism: equilibria, stability, modes of small motions.
 
+mod asked;
+
+pub use asked::MechanismQuestions;
+
 use nalgebra::DMatrix;
 use piola_lagrangian::LagrangianError;
 pub use piola_lagrangian::small_motions::Stability;
 use piola_lagrangian::small_motions::{ComplexMode, ComplexModes, Equilibrium, Linearisation, ModeMotion, NormalModes};
 
 use crate::joints::Mechanism;
-
-/// What is asked of a mechanism besides its motion.
-///
-/// # Example
-/// See [`Mechanism::answers`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct MechanismQuestions {
-    /// Whether the equilibrium near the start is sought, with its stability.
-    pub equilibrium: bool,
-    /// Whether the modes of small motions about it are.
-    pub modes: bool,
-    /// Whether the energies of every part are recorded.
-    pub energies: bool,
-}
 
 /// A mode of small motions, e^(σ t) with σ = growth ± i ω.
 ///

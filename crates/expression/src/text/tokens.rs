@@ -2,7 +2,7 @@
 
 use piola_document::units::{Dimension, Unit};
 
-use super::Wrong;
+use super::ExpressionMistake;
 
 /// A piece of an expression.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +27,7 @@ impl Token {
 }
 
 /// The pieces of a text.
-pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Wrong> {
+pub(super) fn tokens(text: &str) -> Result<Vec<Token>, ExpressionMistake> {
     let mut tokens = Vec::new();
     let mut rest = text.trim_start();
     while let Some(first) = rest.chars().next() {
@@ -41,7 +41,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Wrong> {
             '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',' => (Token::Sign(first), after(rest, first)),
             other => {
                 let valid = "numbers, names, + - * / ^ and brackets ( ); units stand in [ ] after a number";
-                return Err(Wrong::new(format!("`{other}` cannot stand here"), valid));
+                return Err(ExpressionMistake::new(format!("`{other}` cannot stand here"), valid));
             }
         };
         tokens.push(token);
@@ -55,7 +55,7 @@ fn after(text: &str, first: char) -> &str {
 }
 
 /// A number, with a unit in brackets or without.
-fn number(text: &str) -> Result<(Token, &str), Wrong> {
+fn number(text: &str) -> Result<(Token, &str), ExpressionMistake> {
     let bytes = text.as_bytes();
     let digits = |from: usize| from + bytes[from..].iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count();
     let mut end = digits(0);
@@ -67,28 +67,31 @@ fn number(text: &str) -> Result<(Token, &str), Wrong> {
         }
     }
     let (written, rest) = text.split_at(end);
-    let value: f64 = written
-        .parse()
-        .ok()
-        .filter(|value: &f64| value.is_finite())
-        .ok_or_else(|| Wrong::new(format!("`{written}` is no finite number"), "a number such as 2.5e-3"))?;
+    let value: f64 =
+        written.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
+            ExpressionMistake::new(format!("`{written}` is no finite number"), "a number such as 2.5e-3")
+        })?;
     let Some(inside) = rest.trim_start().strip_prefix('[') else { return Ok((Token::Number(value, None), rest)) };
     let Some((unit, rest)) = inside.split_once(']') else {
-        return Err(Wrong::new("a unit lacks its `]`", format!("{written} [N m]")));
+        return Err(ExpressionMistake::new("a unit lacks its `]`", format!("{written} [N m]")));
     };
-    let read: Unit =
-        unit.parse().map_err(|error| Wrong::new(format!("[{unit}]: {error}"), "a unit such as [N m] or [1/s]"))?;
+    let read: Unit = unit
+        .parse()
+        .map_err(|error| ExpressionMistake::new(format!("[{unit}]: {error}"), "a unit such as [N m] or [1/s]"))?;
     let si = read.to_si(value);
     if !si.is_finite() {
-        return Err(Wrong::new(format!("{written} [{unit}] is outside of the range of numbers"), "a finite number"));
+        return Err(ExpressionMistake::new(
+            format!("{written} [{unit}] is outside of the range of numbers"),
+            "a finite number",
+        ));
     }
     Ok((Token::Number(si, Some(read.dimension)), rest))
 }
 
-fn quoted(text: &str) -> Result<(Token, &str), Wrong> {
+fn quoted(text: &str) -> Result<(Token, &str), ExpressionMistake> {
     match text[1..].split_once('`') {
         Some((name, rest)) => Ok((Token::Name(name.to_string()), rest)),
-        None => Err(Wrong::new("a name lacks its second backquote", "`left arm`")),
+        None => Err(ExpressionMistake::new("a name lacks its second backquote", "`left arm`")),
     }
 }
 

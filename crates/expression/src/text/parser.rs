@@ -1,11 +1,11 @@
 //! The parser of expressions: by descent, with the dimension of every part.
 
+use crate::{Expression, ExpressionNode as Node, Function, Operation};
 use piola_document::units::Dimension;
-use piola_simulation::expression::{Expression, ExpressionNode as Node, Function, Operation};
 
 use super::dimensions::{plain, power, pure, words};
 use super::tokens::{Token, tokens};
-use super::{Meaning, Names, Wrong, one_of};
+use super::{ExpressionMistake, ExpressionNames, NameMeaning, one_of};
 
 /// Brackets and signs within each other, beyond which the parser would recurse too far.
 const DEEPEST: usize = 60;
@@ -37,12 +37,12 @@ pub(super) fn is_function(name: &str) -> bool {
     name == "rate" || FUNCTIONS.iter().any(|(known, _)| *known == name) || PAIRS.iter().any(|(known, _)| *known == name)
 }
 
-pub(super) fn parse(text: &str, names: &Names, expected: Dimension) -> Result<Expression, Wrong> {
+pub(super) fn parse(text: &str, names: &ExpressionNames, expected: Dimension) -> Result<Expression, ExpressionMistake> {
     let tokens = tokens(text)?;
     let mut parser = Parser { tokens: &tokens, next: 0, names, nodes: Vec::new(), depth: 0 };
     let whole = parser.sum()?;
     if let Some(token) = parser.peek() {
-        return Err(Wrong::new(
+        return Err(ExpressionMistake::new(
             format!("{} cannot stand there", token.shown()),
             "a sign + - * / ^ between two parts, as in 2 * x",
         ));
@@ -50,12 +50,12 @@ pub(super) fn parse(text: &str, names: &Names, expected: Dimension) -> Result<Ex
     let bare = matches!(tokens.as_slice(), [Token::Number(_, None)] | [Token::Sign('-'), Token::Number(_, None)]);
     let expected = plain(expected);
     if names.with_units && whole.dimension != expected && !bare {
-        return Err(Wrong::new(
+        return Err(ExpressionMistake::new(
             format!("it is {} instead of {}", words(whole.dimension), words(expected)),
             format!("numbers with their units, as 2 [{}]", expected.si_unit()),
         ));
     }
-    Expression::new(parser.nodes).map_err(|error| Wrong::new(error.to_string(), "a shorter expression"))
+    Expression::new(parser.nodes).map_err(|error| ExpressionMistake::new(error.to_string(), "a shorter expression"))
 }
 
 /// A part of an expression: the nodes from `start` on, of which the last is its value.
@@ -67,7 +67,7 @@ struct Part {
 struct Parser<'p> {
     tokens: &'p [Token],
     next: usize,
-    names: &'p Names,
+    names: &'p ExpressionNames,
     nodes: Vec<Node>,
     depth: usize,
 }
@@ -89,19 +89,19 @@ impl Parser<'_> {
         }
     }
 
-    fn require(&mut self, sign: char, why: &str) -> Result<(), Wrong> {
+    fn require(&mut self, sign: char, why: &str) -> Result<(), ExpressionMistake> {
         if self.take(&[sign]).is_some() {
             return Ok(());
         }
         let found = self.peek().map_or_else(|| "it ends".to_string(), |token| format!("{} stands", token.shown()));
-        Err(Wrong::new(format!("{found} where `{sign}` {why}"), format!("`{sign}`")))
+        Err(ExpressionMistake::new(format!("{found} where `{sign}` {why}"), format!("`{sign}`")))
     }
 
     /// Adds a node, or the number that it is.
-    fn push(&mut self, start: usize, node: Node, dimension: Dimension) -> Result<Part, Wrong> {
+    fn push(&mut self, start: usize, node: Node, dimension: Dimension) -> Result<Part, ExpressionMistake> {
         self.nodes.push(node);
         if MOST_NODES < self.nodes.len() {
-            return Err(Wrong::new(format!("it has more than {MOST_NODES} parts"), "a shorter expression"));
+            return Err(ExpressionMistake::new(format!("it has more than {MOST_NODES} parts"), "a shorter expression"));
         }
         let inner = &self.nodes[start..];
         if 1 < inner.len() && !inner.iter().any(|node| matches!(node, Node::Variable(_))) {
@@ -109,7 +109,7 @@ impl Parser<'_> {
             let shifted = inner.iter().map(|node| lowered(*node, start)).collect();
             let value = Expression::new(shifted).map_or(f64::NAN, |number| number.evaluate(&|_| 0.0));
             if !value.is_finite() {
-                return Err(Wrong::new(format!("a part of it is {value}"), "finite numbers"));
+                return Err(ExpressionMistake::new(format!("a part of it is {value}"), "finite numbers"));
             }
             self.nodes.truncate(start);
             self.nodes.push(Node::Constant(value));
@@ -129,7 +129,7 @@ impl Parser<'_> {
         self.nodes.len() - 1
     }
 
-    fn sum(&mut self) -> Result<Part, Wrong> {
+    fn sum(&mut self) -> Result<Part, ExpressionMistake> {
         let mut sum = self.product()?;
         while let Some(sign) = self.take(&['+', '-']) {
             // Zero has every dimension.
@@ -140,7 +140,7 @@ impl Parser<'_> {
             if sum.dimension != term.dimension && !zero_left && !zero(self, &term) {
                 let operation = if sign == '+' { "added to" } else { "taken from" };
                 let (left, right) = (words(sum.dimension), words(term.dimension));
-                return Err(Wrong::new(format!("{right} is {operation} {left}"), format!("twice {left}")));
+                return Err(ExpressionMistake::new(format!("{right} is {operation} {left}"), format!("twice {left}")));
             }
             let operation = if sign == '+' { Operation::Sum } else { Operation::Difference };
             sum = self.push(sum.start, Node::Operation(operation, left, self.last()), dimension)?;
@@ -148,7 +148,7 @@ impl Parser<'_> {
         Ok(sum)
     }
 
-    fn product(&mut self) -> Result<Part, Wrong> {
+    fn product(&mut self) -> Result<Part, ExpressionMistake> {
         let mut product = self.power()?;
         while let Some(sign) = self.take(&['*', '/']) {
             let left = self.last();
@@ -163,17 +163,20 @@ impl Parser<'_> {
         Ok(product)
     }
 
-    fn power(&mut self) -> Result<Part, Wrong> {
+    fn power(&mut self) -> Result<Part, ExpressionMistake> {
         self.depth += 1;
         if DEEPEST < self.depth {
-            return Err(Wrong::new(format!("it has more than {DEEPEST} brackets in each other"), "fewer brackets"));
+            return Err(ExpressionMistake::new(
+                format!("it has more than {DEEPEST} brackets in each other"),
+                "fewer brackets",
+            ));
         }
         let part = self.power_within();
         self.depth -= 1;
         part
     }
 
-    fn power_within(&mut self) -> Result<Part, Wrong> {
+    fn power_within(&mut self) -> Result<Part, ExpressionMistake> {
         if self.take(&['-']).is_some() {
             let part = self.power()?;
             return self.push(part.start, Node::Negative(self.last()), part.dimension);
@@ -193,7 +196,10 @@ impl Parser<'_> {
             return self.push(base.start, Node::Operation(Operation::Power, at, self.last()), Dimension::NONE);
         };
         let dimension = power(base.dimension, number).ok_or_else(|| {
-            Wrong::new(format!("{} to the power {number} has no dimension", base.dimension), "a whole exponent")
+            ExpressionMistake::new(
+                format!("{} to the power {number} has no dimension", base.dimension),
+                "a whole exponent",
+            )
         })?;
         if number.fract().abs() <= 0.0 && number.abs() <= 1000.0 {
             self.nodes.truncate(exponent.start);
@@ -203,14 +209,14 @@ impl Parser<'_> {
         self.push(base.start, Node::Operation(Operation::Power, at, self.last()), dimension)
     }
 
-    fn atom(&mut self) -> Result<Part, Wrong> {
+    fn atom(&mut self) -> Result<Part, ExpressionMistake> {
         let start = self.nodes.len();
         let token = self.peek().cloned();
         self.next += 1;
         match token {
             Some(Token::Number(value, dimension)) => {
                 if dimension.is_some() && !self.names.with_units {
-                    return Err(Wrong::new("a number has a unit", "pure numbers: nothing here has a unit"));
+                    return Err(ExpressionMistake::new("a number has a unit", "pure numbers: nothing here has a unit"));
                 }
                 let dimension = plain(dimension.unwrap_or(Dimension::NONE));
                 self.push(start, Node::Constant(value), dimension)
@@ -225,25 +231,28 @@ impl Parser<'_> {
                     return self.call(&name, start);
                 }
                 let Some((meaning, dimension)) = self.names.meanings.get(&name) else {
-                    return Err(Wrong::new(format!("`{name}` is not known"), one_of(&name, self.names)));
+                    return Err(ExpressionMistake::new(format!("`{name}` is not known"), one_of(&name, self.names)));
                 };
                 let node = match meaning {
-                    Meaning::Variable(variable) => Node::Variable(*variable),
-                    Meaning::Number(value) => Node::Constant(*value),
+                    NameMeaning::Variable(variable) => Node::Variable(*variable),
+                    NameMeaning::Number(value) => Node::Constant(*value),
                 };
                 let dimension = if self.names.with_units { plain(*dimension) } else { Dimension::NONE };
                 self.push(start, node, dimension)
             }
-            Some(token) => Err(Wrong::new(
+            Some(token) => Err(ExpressionMistake::new(
                 format!("{} stands where a number or a name must", token.shown()),
                 "a number, a name or a bracket",
             )),
-            None => Err(Wrong::new("it ends where a number or a name must stand", "a number, a name or a bracket")),
+            None => Err(ExpressionMistake::new(
+                "it ends where a number or a name must stand",
+                "a number, a name or a bracket",
+            )),
         }
     }
 
     /// A function, after its bracket.
-    fn call(&mut self, name: &str, start: usize) -> Result<Part, Wrong> {
+    fn call(&mut self, name: &str, start: usize) -> Result<Part, ExpressionMistake> {
         if name == "rate" {
             return self.rate(start);
         }
@@ -254,7 +263,7 @@ impl Parser<'_> {
                 Function::Abs => first.dimension,
                 Function::Sign => Dimension::NONE,
                 Function::Sqrt => power(first.dimension, 0.5).ok_or_else(|| {
-                    Wrong::new(format!("the root of {} has no dimension", first.dimension), "a square")
+                    ExpressionMistake::new(format!("the root of {} has no dimension", first.dimension), "a square")
                 })?,
                 _ => {
                     pure(&format!("the argument of {name}"), first.dimension)?;
@@ -266,7 +275,7 @@ impl Parser<'_> {
         let Some((_, operation)) = PAIRS.iter().find(|(known, _)| *known == name) else {
             let known = FUNCTIONS.iter().map(|(name, _)| *name).chain(PAIRS.iter().map(|(name, _)| *name));
             let valid = piola_document::words::one_of(name, known.chain(["rate"]));
-            return Err(Wrong::new(format!("no function is named `{name}`"), valid));
+            return Err(ExpressionMistake::new(format!("no function is named `{name}`"), valid));
         };
         let left = self.last();
         self.require(',', &format!("must part the arguments of {name}(…)"))?;
@@ -274,20 +283,20 @@ impl Parser<'_> {
         self.require(')', &format!("must close {name}(…)"))?;
         if first.dimension != second.dimension {
             let (first, second) = (words(first.dimension), words(second.dimension));
-            return Err(Wrong::new(format!("{name} of {first} and {second}"), format!("twice {first}")));
+            return Err(ExpressionMistake::new(format!("{name} of {first} and {second}"), format!("twice {first}")));
         }
         let dimension = if *operation == Operation::Atan2 { Dimension::NONE } else { first.dimension };
         self.push(start, Node::Operation(*operation, left, self.last()), dimension)
     }
 
-    fn rate(&mut self, start: usize) -> Result<Part, Wrong> {
+    fn rate(&mut self, start: usize) -> Result<Part, ExpressionMistake> {
         let Some(Token::Name(name)) = self.peek().cloned() else {
-            return Err(Wrong::new("rate(…) has no name in it", "rate(joint): the rate of a coordinate"));
+            return Err(ExpressionMistake::new("rate(…) has no name in it", "rate(joint): the rate of a coordinate"));
         };
         self.next += 1;
         let known = self.names.rates.keys().map(String::as_str);
         let Some((variable, dimension)) = self.names.rates.get(&name) else {
-            return Err(Wrong::new(
+            return Err(ExpressionMistake::new(
                 format!("no coordinate with a rate is named `{name}`"),
                 piola_document::words::one_of(&name, known),
             ));

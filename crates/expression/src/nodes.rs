@@ -1,13 +1,11 @@
 //! Expressions of coordinates, rates or momenta and time as data: evaluated over any scalar, so with exact derivatives.
 //!
-//! An expression is a list of nodes in which every node stands after those that it takes. It is made once, from text by the
-//! crate of scenes, and evaluated without allocation.
-
-mod structure;
+//! An expression is a list of nodes in which every node stands after those that it takes. It is made once and evaluated without
+//! allocation.
 
 use piola_numerics::{Dual, Real};
 
-use crate::SimulationError;
+use crate::ExpressionError;
 
 /// Largest depth of an expression: an evaluation recurses along it.
 pub const DEEPEST_EXPRESSION: usize = 200;
@@ -111,7 +109,7 @@ pub enum ExpressionNode {
 /// # Example
 /// ```
 /// use piola_numerics::Dual;
-/// use piola_simulation::expression::{Expression, ExpressionNode as Node, Operation, Variable};
+/// use piola_expression::{Expression, ExpressionNode as Node, Operation, Variable};
 /// // 3 t²
 /// let nodes = vec![
 ///     Node::Constant(3.0),
@@ -123,23 +121,23 @@ pub enum ExpressionNode {
 /// let at = |t| expression.evaluate(&|_: Variable| t);
 /// assert_eq!(at(Dual::variable(2.0)), Dual::new(12.0, 12.0)); // 3 t² and 6 t
 /// assert!(expression.depends_on_time() && expression.coordinates() == 0);
-/// # Ok::<(), piola_simulation::SimulationError>(())
+/// # Ok::<(), piola_expression::ExpressionError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expression {
-    nodes: Vec<ExpressionNode>,
+    pub(crate) nodes: Vec<ExpressionNode>,
 }
 
 impl Expression {
     /// The expression of these nodes, the last of which is its value.
     ///
     /// # Errors
-    /// [`SimulationError::WrongLength`] for no node, [`SimulationError::NotFinite`] for a constant,
-    /// [`SimulationError::ExpressionOrder`] for a node that does not stand after those that it takes, or takes what another one
-    /// does, [`SimulationError::ExpressionTooDeep`] for more than [`DEEPEST_EXPRESSION`] levels.
-    pub fn new(nodes: Vec<ExpressionNode>) -> Result<Self, SimulationError> {
+    /// [`ExpressionError::WrongLength`] for no node, [`ExpressionError::NotFinite`] for a constant,
+    /// [`ExpressionError::ExpressionOrder`] for a node that does not stand after those that it takes, or takes what another one
+    /// does, [`ExpressionError::ExpressionTooDeep`] for more than [`DEEPEST_EXPRESSION`] levels.
+    pub fn new(nodes: Vec<ExpressionNode>) -> Result<Self, ExpressionError> {
         if nodes.is_empty() {
-            return Err(SimulationError::WrongLength { quantity: "nodes of an expression", expected: 1, found: 0 });
+            return Err(ExpressionError::WrongLength { quantity: "nodes of an expression", expected: 1, found: 0 });
         }
         let mut depths: Vec<usize> = Vec::with_capacity(nodes.len());
         // A tree: what is taken twice would be evaluated twice, and along a chain of such nodes ever more often.
@@ -148,20 +146,20 @@ impl Expression {
             if let ExpressionNode::Constant(value) = *item
                 && !value.is_finite()
             {
-                return Err(SimulationError::NotFinite { quantity: "constant", index: node, value });
+                return Err(ExpressionError::NotFinite { quantity: "constant", index: node, value });
             }
             let [a, b] = item.operands();
             let mut depth = 0;
             for operand in [a, b].into_iter().flatten() {
                 let Some(below) = depths.get(operand).filter(|_| !taken[operand]) else {
-                    return Err(SimulationError::ExpressionOrder { node, operand });
+                    return Err(ExpressionError::ExpressionOrder { node, operand });
                 };
                 taken[operand] = true;
                 depth = depth.max(*below);
             }
             if DEEPEST_EXPRESSION <= depth {
                 let most = DEEPEST_EXPRESSION;
-                return Err(SimulationError::ExpressionTooDeep { depth: depth + 1, most });
+                return Err(ExpressionError::ExpressionTooDeep { depth: depth + 1, most });
             }
             depths.push(depth + 1);
         }
@@ -171,8 +169,8 @@ impl Expression {
     /// A number.
     ///
     /// # Errors
-    /// [`SimulationError::NotFinite`].
-    pub fn constant(value: f64) -> Result<Self, SimulationError> {
+    /// [`ExpressionError::NotFinite`].
+    pub fn constant(value: f64) -> Result<Self, ExpressionError> {
         Self::new(vec![ExpressionNode::Constant(value)])
     }
 
@@ -208,7 +206,7 @@ impl Expression {
 }
 
 impl ExpressionNode {
-    fn operands(&self) -> [Option<usize>; 2] {
+    pub(crate) fn operands(&self) -> [Option<usize>; 2] {
         match *self {
             Self::Constant(_) | Self::Variable(_) => [None, None],
             Self::Negative(a) | Self::WholePower(a, _) | Self::Function(_, a) => [Some(a), None],

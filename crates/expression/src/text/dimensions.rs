@@ -2,7 +2,7 @@
 
 use piola_document::units::Dimension;
 
-use super::Wrong;
+use super::ExpressionMistake;
 
 /// Angles count as pure numbers: a torque times an angle is an energy.
 pub(super) fn plain(dimension: Dimension) -> Dimension {
@@ -15,11 +15,11 @@ pub(super) fn words(dimension: Dimension) -> String {
 }
 
 /// Refuses what is no pure number.
-pub(super) fn pure(what: &str, dimension: Dimension) -> Result<(), Wrong> {
+pub(super) fn pure(what: &str, dimension: Dimension) -> Result<(), ExpressionMistake> {
     if dimension == Dimension::NONE {
         return Ok(());
     }
-    Err(Wrong::new(
+    Err(ExpressionMistake::new(
         format!("{what} has the dimension {dimension}"),
         "a pure number: divide by a quantity of the same dimension",
     ))

@@ -1,10 +1,9 @@
 //! Expressions: values, derivatives, what they depend on, and trees that are none.
 
-use piola_numerics::Dual;
-use piola_simulation::SimulationError;
-use piola_simulation::expression::{
-    DEEPEST_EXPRESSION, Expression, ExpressionNode as Node, Function, Operation, Variable,
+use piola_expression::{
+    DEEPEST_EXPRESSION, Expression, ExpressionError, ExpressionNode as Node, Function, Operation, Variable,
 };
+use piola_numerics::Dual;
 use piola_testkit::{Tol, assert_close};
 
 fn expression(nodes: Vec<Node>) -> Expression {
@@ -103,17 +102,17 @@ fn a_sum_of_terms_of_q_and_of_p_is_separable() {
 #[test]
 fn nodes_that_form_no_tree_are_refused() {
     let refused = |nodes| Expression::new(nodes).err();
-    assert!(matches!(refused(vec![]), Some(SimulationError::WrongLength { expected: 1, found: 0, .. })));
+    assert!(matches!(refused(vec![]), Some(ExpressionError::WrongLength { expected: 1, found: 0, .. })));
     assert!(matches!(
         refused(vec![Q, Node::Constant(f64::NAN)]),
-        Some(SimulationError::NotFinite { index: 1, value, .. }) if value.is_nan()
+        Some(ExpressionError::NotFinite { index: 1, value, .. }) if value.is_nan()
     ));
     let later = vec![Node::Negative(1), Q];
-    assert_eq!(refused(later), Some(SimulationError::ExpressionOrder { node: 0, operand: 1 }));
+    assert_eq!(refused(later), Some(ExpressionError::ExpressionOrder { node: 0, operand: 1 }));
     let twice = vec![Q, Node::Operation(Operation::Sum, 0, 0)];
-    assert_eq!(refused(twice), Some(SimulationError::ExpressionOrder { node: 1, operand: 0 }));
+    assert_eq!(refused(twice), Some(ExpressionError::ExpressionOrder { node: 1, operand: 0 }));
     let chain = |levels: usize| core::iter::once(Q).chain((1..levels).map(|i| Node::Negative(i - 1))).collect();
     assert_eq!(refused(chain(DEEPEST_EXPRESSION)), None);
     let (depth, most) = (DEEPEST_EXPRESSION + 1, DEEPEST_EXPRESSION);
-    assert_eq!(refused(chain(depth)), Some(SimulationError::ExpressionTooDeep { depth, most }));
+    assert_eq!(refused(chain(depth)), Some(ExpressionError::ExpressionTooDeep { depth, most }));
 }

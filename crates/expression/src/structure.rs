@@ -1,6 +1,6 @@
 //! What an expression depends on.
 
-use super::{Expression, ExpressionNode, Operation, Variable};
+use crate::{Expression, ExpressionNode, Operation, Variable};
 
 impl Expression {
     /// One more than the largest index of a coordinate; 0 without coordinates.

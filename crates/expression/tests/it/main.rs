@@ -1,0 +1,5 @@
+//! Tests of expressions: one binary.
+
+mod expressions;
+#[cfg(feature = "text")]
+mod text;

@@ -1,0 +1,43 @@
+//! Constraints as data.
+
+use crate::expression::Expression;
+use crate::joints::Anchor;
+
+/// A constraint with its name.
+///
+/// # Example
+/// See [`Mechanism::with_constraints`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Constraint {
+    /// Name.
+    pub name: String,
+    /// What it holds.
+    pub kind: ConstraintKind,
+}
+
+/// Kinds of constraints.
+///
+/// # Example
+/// See [`Mechanism::with_constraints`].
+#[derive(Debug, Clone, PartialEq)]
+pub enum ConstraintKind {
+    /// A massless rod between two points: φ = (|x₂ − x₁|² − l²)/(2 l).
+    Distance {
+        /// Its ends.
+        ends: [Anchor; 2],
+        /// Its length l, m, greater than zero.
+        length: f64,
+    },
+    /// A closed loop: two points are one, φ = x₂ − x₁.
+    Loop {
+        /// The points.
+        ends: [Anchor; 2],
+    },
+    /// A coordinate that moves as prescribed: φ = q − f(t).
+    Prescribed {
+        /// The coordinate.
+        coordinate: usize,
+        /// f, an expression of the time.
+        motion: Expression,
+    },
+}
