@@ -105,7 +105,7 @@ impl Scene {
         builder.finish(scene)
     }
 
-    /// ExpressionNames of everything that has a position, in the order of positions.
+    /// Names of everything that has a position, in the order of positions.
     #[must_use]
     pub fn names(&self) -> Vec<&str> {
         self.system.names()
