@@ -21,6 +21,9 @@ use crate::{IntegratorsError, SecondOrder, State};
 /// | Ω | `rate` | scalar, about the third axis | rad/s |
 /// | q, r | coordinates of points in turn, in the plane (x, y) or in space (x, y, z) | 2 or 3 a point | m |
 ///
+/// Errors are compared with the largest position and velocity in the frame at rest: [`SecondOrder::magnitudes`] of the forces is not
+/// asked.
+///
 /// # Example
 /// ```
 /// use core::convert::Infallible;

@@ -33,8 +33,8 @@ impl<T: Real> SecondOrder<T> for Springs {
         if self.is_turning {
             let (rate, square) = (T::lit(RATE), T::lit(RATE * RATE));
             for k in [0, 3] {
-                out[k] = out[k] + (square * q[k] + T::lit(2.0) * rate * v[k + 1]);
-                out[k + 1] = out[k + 1] + (square * q[k + 1] - T::lit(2.0) * rate * v[k]);
+                out[k] += square * q[k] + T::lit(2.0) * rate * v[k + 1];
+                out[k + 1] += square * q[k + 1] - T::lit(2.0) * rate * v[k];
             }
         }
         Ok(())

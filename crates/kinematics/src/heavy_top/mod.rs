@@ -79,7 +79,8 @@ impl HeavyTop {
     /// of mass, in body components (N m).
     ///
     /// # Errors
-    /// [`KinematicsError::NotFinite`]; [`KinematicsError::NotSymmetricAbout`] where the inertia is not symmetric about the arm.
+    /// [`KinematicsError::NotFinite`]; [`KinematicsError::NoDirection`] for an attitude of length zero;
+    /// [`KinematicsError::NotSymmetricAbout`] where the inertia is not symmetric about the arm.
     pub fn new(
         inertia: &Inertia,
         weight_times_arm: Vector3<f64>,
@@ -89,6 +90,10 @@ impl HeavyTop {
         finite("weight times arm", weight_times_arm.as_slice())?;
         finite("attitude", &[attitude.w, attitude.x, attitude.y, attitude.z])?;
         finite("angular velocity", angular_velocity.as_slice())?;
+        let length = attitude.squared_length().sqrt();
+        if length <= 0.0 {
+            return Err(KinematicsError::NoDirection { quantity: "attitude", length });
+        }
         let weight = weight_times_arm.norm();
         let axes = axes_about(axis_of_symmetry(inertia, weight_times_arm));
         let [across, along] = symmetric_moments(inertia, &axes)?;

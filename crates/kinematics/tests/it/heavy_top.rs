@@ -209,6 +209,9 @@ fn what_is_no_symmetric_top_is_refused() {
     let inertia = Inertia::principal([1.0, 1.0, 1.5]).unwrap();
     let refused = HeavyTop::new(&inertia, Vector3::x(), start, omega);
     assert!(matches!(refused, Err(KinematicsError::NotSymmetricAbout { .. })), "{refused:?}");
+    let none = Attitude { w: 0.0, x: 0.0, y: 0.0, z: 0.0 };
+    let refused = HeavyTop::new(&inertia, Vector3::z(), none, omega);
+    assert!(matches!(refused, Err(KinematicsError::NoDirection { quantity: "attitude", .. })), "{refused:?}");
     let refused = HeavyTop::new(&inertia, Vector3::new(0.0, f64::NAN, 1.0), start, omega);
     assert!(
         matches!(refused, Err(KinematicsError::NotFinite { quantity: "weight times arm", index: 1, .. })),

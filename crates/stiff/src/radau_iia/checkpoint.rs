@@ -107,8 +107,10 @@ impl RadauCheckpoint {
         let most = work.accepted.len();
         let stages = memory.last.map_or(0, |(order, _)| order.tableau().stages() * n);
         let entries = if memory.is_jacobian_kept { work.matrices.jacobian().len() } else { 0 };
+        // Stages of an order above the highest have no room.
+        let room = if most < stages { most } else { self.stages.len() };
         for (quantity, expected, found) in [
-            ("checkpoint.stages", stages.min(most), self.stages.len()),
+            ("checkpoint.stages", room, stages),
             ("checkpoint.rate", n, self.rate.len()),
             ("checkpoint.jacobian", entries, self.jacobian.len()),
         ] {
@@ -116,13 +118,16 @@ impl RadauCheckpoint {
                 return Err(IntegratorsError::WrongLength { quantity, expected, found });
             }
         }
-        let numbers = [memory.step, memory.rest, self.origin];
+        let [last, factored] = [memory.last, memory.factored].map(|made| made.map_or(1.0, |(_, step)| step));
+        let numbers = [memory.step, memory.rest, self.origin, last, factored];
         check_finite("checkpoint.numbers", None, &numbers)?;
         check_finite("checkpoint.stages", None, &self.stages)?;
         check_finite("checkpoint.rate", None, &self.rate)?;
         check_finite("checkpoint.jacobian", None, &self.jacobian)?;
-        if memory.step <= 0.0 {
-            return Err(IntegratorsError::NotPositive { quantity: "checkpoint.numbers", value: memory.step });
+        for value in [memory.step, last.abs(), factored.abs()] {
+            if value <= 0.0 {
+                return Err(IntegratorsError::NotPositive { quantity: "checkpoint.numbers", value });
+            }
         }
         work.accepted[..stages].copy_from_slice(&self.stages);
         work.rate.copy_from_slice(&self.rate);

@@ -282,7 +282,8 @@ impl RadauIia {
     /// checkpoint. To the same end the run takes the same steps, to the last bit.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another system or of other orders.
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another system or of other orders; for
+    /// equal steps [`IntegratorsError::InvalidStep`] where the checkpoint is not at the end of one of the steps to this end.
     pub fn resume<F: StiffField>(
         &mut self,
         field: &mut F,

@@ -50,6 +50,12 @@ impl RadauIia {
             Control::Fixed(longest) => Some(equal_steps(origin, end, longest)?),
             Control::Adaptive(_) => None,
         };
+        if let (Some(_), Some((count, h))) = (resumed, equal) {
+            let begun = report.run.steps;
+            if count <= begun || (origin + h * begun as f64).to_bits() != state.time.to_bits() {
+                return Err(IntegratorsError::InvalidStep { step: h });
+            }
+        }
         let mut progress = if let Some(checkpoint) = resumed {
             let mut memory = checkpoint.open(&mut self.work)?;
             // Factors are made again, not counted again.

@@ -104,3 +104,50 @@ fn checkpoints_of_other_systems_are_refused() {
         .resume(&mut ExactJacobian::new(Robertson), &kept, &mut state, 2.0, |_| ControlFlow::Continue(()));
     assert!(matches!(refused, Err(IntegratorsError::WrongLength { expected: 3, found: 2, .. })), "{refused:?}");
 }
+
+/// Equal steps to another end, or of another length, are other steps.
+#[test]
+fn equal_steps_to_another_end_are_refused() {
+    let (mut state, mut kept) = (State::new(0.0, vec![1.0, 0.0, 0.0, 0.25]).unwrap(), None);
+    let method = |step: f64| RadauIia::with_step(RadauOrder::Nine, step).unwrap();
+    let observer = |step: &piola_stiff::RadauIiaStep<'_>| {
+        if step.number() == 5 {
+            kept = Some(step.checkpoint());
+        }
+        ControlFlow::Continue(())
+    };
+    method(0.1).integrate(&mut ExactJacobian::new(SpringPendulum), &mut state, 1.0, observer).unwrap();
+    let kept = kept.unwrap();
+    for (step, end) in [(0.1, 0.95), (0.1, 0.3), (0.2, 1.0)] {
+        let mut state = State::new(0.0, Vec::new()).unwrap();
+        let mut system = ExactJacobian::new(SpringPendulum);
+        let refused = method(step).resume(&mut system, &kept, &mut state, end, |_| ControlFlow::Continue(()));
+        assert!(matches!(refused, Err(IntegratorsError::InvalidStep { .. })), "{step} {end}: {refused:?}");
+    }
+}
+
+/// A checkpoint of an order above those of the method has no room; one whose steps are zero is none.
+#[cfg(feature = "serde")]
+#[test]
+fn changed_checkpoints_are_refused() {
+    let (mut state, mut kept) = (State::new(0.0, vec![2.0, 0.0]).unwrap(), None);
+    let observer = |step: &piola_stiff::RadauIiaStep<'_>| {
+        kept = Some(step.checkpoint());
+        ControlFlow::Break(())
+    };
+    let method = || adaptive(1e-4).with_orders(RadauOrder::Five, RadauOrder::Five);
+    method().integrate(&mut ExactJacobian::new(VanDerPol), &mut state, 2.0, observer).unwrap();
+    let written = serde_json::to_value(kept.unwrap()).unwrap();
+    let resume = |value: serde_json::Value| {
+        let checkpoint: RadauCheckpoint = serde_json::from_value(value).unwrap();
+        let mut state = State::new(0.0, Vec::new()).unwrap();
+        method().resume(&mut ExactJacobian::new(VanDerPol), &checkpoint, &mut state, 2.0, |_| ControlFlow::Continue(()))
+    };
+    assert!(resume(written.clone()).is_ok());
+    let mut higher = written.clone();
+    higher["memory"]["last"][0] = "Thirteen".into();
+    assert!(matches!(resume(higher), Err(IntegratorsError::WrongLength { quantity: "checkpoint.stages", .. })));
+    let mut still = written;
+    still["memory"]["last"][1] = 0.0.into();
+    assert!(matches!(resume(still), Err(IntegratorsError::NotPositive { quantity: "checkpoint.numbers", .. })));
+}
