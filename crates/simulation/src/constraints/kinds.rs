@@ -6,7 +6,7 @@ use crate::joints::Anchor;
 /// A constraint with its name.
 ///
 /// # Example
-/// See [`Mechanism::with_constraints`].
+/// See [`Mechanism::with_constraints`](crate::joints::Mechanism::with_constraints).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Constraint {
     /// Name.
@@ -18,7 +18,7 @@ pub struct Constraint {
 /// Kinds of constraints.
 ///
 /// # Example
-/// See [`Mechanism::with_constraints`].
+/// See [`Mechanism::with_constraints`](crate::joints::Mechanism::with_constraints).
 #[derive(Debug, Clone, PartialEq)]
 pub enum ConstraintKind {
     /// A massless rod between two points: φ = (|x₂ − x₁|² − l²)/(2 l).

@@ -4,7 +4,7 @@
 //! φ(q, t) = 0        M q̈ + Gᵀ λ = f,   G = ∂φ/∂q
 //! ```
 //! Multipliers λ are found with the accelerations ([`piola_lagrangian::constraints`]); their signs are turned so that they are
-//! the forces of [`MechanismConstraints::condition_names`].
+//! the forces of [`Mechanism::condition_names`].
 
 mod kinds;
 

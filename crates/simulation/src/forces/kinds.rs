@@ -6,7 +6,7 @@ use crate::joints::Anchor;
 /// A force with its name.
 ///
 /// # Example
-/// See [`Mechanism::with_forces`].
+/// See [`Mechanism::with_forces`](crate::joints::Mechanism::with_forces).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Force {
     /// Name.
@@ -24,7 +24,7 @@ pub type Weighted = (Anchor, f64);
 /// Kinds of forces.
 ///
 /// # Example
-/// See [`Mechanism::with_forces`].
+/// See [`Mechanism::with_forces`](crate::joints::Mechanism::with_forces).
 #[derive(Debug, Clone, PartialEq)]
 pub enum ForceKind {
     /// A spring with a damper between two points: V = ½ k (r − l)², and −c ṙ along the line.

@@ -3,7 +3,7 @@
 /// What is asked of a mechanism besides its motion.
 ///
 /// # Example
-/// See [`Mechanism::answers`].
+/// See [`Mechanism::answers`](crate::joints::Mechanism::answers).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct MechanismQuestions {
     /// Whether the equilibrium near the start is sought, with its stability.
