@@ -174,6 +174,14 @@ pub enum MultibodyError {
         /// The reason given by the system.
         reason: String,
     },
+    /// A URDF file is longer than those that are read.
+    #[error("{path} has more than {limit} bytes, the most that a URDF file may have")]
+    UrdfFileTooLong {
+        /// The file.
+        path: String,
+        /// The most bytes that are read.
+        limit: u64,
+    },
     /// A violated condition in one of many states.
     #[error("state {state}: {source}")]
     InState {
@@ -223,6 +231,14 @@ pub enum UrdfFault {
         attribute: &'static str,
         /// Its text.
         text: String,
+    },
+    /// A length of a shape is negative.
+    #[error("`{attribute}` is {value}; it must not be negative")]
+    Negative {
+        /// The attribute.
+        attribute: &'static str,
+        /// Its value.
+        value: f64,
     },
     /// A joint names a link that does not exist.
     #[error("there is no link named `{link}`")]

@@ -54,6 +54,8 @@ pub struct ConstrainedMotion<'a, S, P, F, C> {
     /// The largest sᵢ, and the largest of the least shares, so far.
     largest: Vec<f64>,
     usual_share: f64,
+    /// The independent constraint with the least share, at the last look.
+    weakest: usize,
     /// A state before its projection, or brought onto the branch, and scratch of the same length.
     stage: Vec<f64>,
     scratch: Vec<f64>,
@@ -99,10 +101,13 @@ impl<S, P, F, C> ConstrainedMotion<'_, S, P, F, C> {
         for (largest, &size) in self.largest.iter_mut().zip(&independence.sizes) {
             *largest = largest.max(size);
         }
-        let share = (0..independence.rank).fold(1.0, |least: f64, place| {
-            let constraint = independence.order[place];
-            least.min(independence.share(place) * independence.sizes[constraint] / self.largest[constraint])
-        });
+        let mut share = 1.0;
+        for (place, &constraint) in independence.taken().iter().enumerate() {
+            let own = independence.share(place) * independence.sizes[constraint] / self.largest[constraint];
+            if own < share {
+                (share, self.weakest) = (own, constraint);
+            }
+        }
         self.usual_share = self.usual_share.max(share);
         share / self.usual_share
     }
@@ -125,6 +130,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
             passages: Passages::of(count, coordinates),
             largest: vec![0.0; count],
             usual_share: 0.0,
+            weakest: 0,
             stage: vec![0.0; 2 * coordinates],
             scratch: vec![0.0; 2 * coordinates],
             beside: [false; 2],
@@ -287,7 +293,8 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Field for Constraine
             return self.go_on();
         }
         // Too close by, or a shorter step is tried: with what was chosen for this one.
-        let lost = self.work.independence.order.get(self.work.independence.rank.min(before)).copied();
+        let independence = &self.work.independence;
+        let condition = if independence.rank < before { independence.order[independence.rank] } else { self.weakest };
         self.work.independence.order.clone_from(&self.order);
         self.work.independence.rank = before;
         y.copy_from_slice(&self.stage);
@@ -296,7 +303,6 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Field for Constraine
         self.close_by += 1;
         let stays = REFUSED < self.close_by && (self.stops || REFUSED + ACCEPTED < self.close_by);
         if stays || self.close_by <= REFUSED {
-            let condition = lost.unwrap_or_default();
             self.stopped = stays.then_some(SingularPosition { t, condition });
             return Err(self.system.singular(condition, t));
         }

@@ -153,6 +153,22 @@ fn motion_from_a_singular_position_ends_with_the_error() {
     };
 }
 
+/// Bars aligned but for 10⁻⁴, along x and along y: the first such step is refused, by the constraint whose gradient vanishes.
+#[test]
+fn step_that_ends_close_by_a_singular_position_is_refused_with_the_name_of_its_constraint() {
+    for (turn, expected) in [(0.0, "loop along x"), (FRAC_PI_2, "loop along y")] {
+        let system = ladder(1, turn);
+        let mut motion = system.motion(3);
+        let at = |angle: f64| [turn + angle, turn, turn + angle, -2.0, 0.0, -2.0];
+        motion.rate(0.0, &at(0.5), &mut [0.0; 6]).unwrap();
+        let error = motion.project(0.25, &mut at(1e-4)).unwrap_err();
+        let LagrangianError::Constraint(ConstraintError::Singular { name, time, .. }) = error else {
+            panic!("{error}")
+        };
+        assert_eq!((name.as_deref(), time), (Some(expected), 0.25));
+    }
+}
+
 /// A tolerance that rounding beside the positions exceeds: the run ends with the error, not with thousands of steps.
 #[test]
 fn run_with_too_tight_a_tolerance_ends_with_the_error_within_few_steps() {

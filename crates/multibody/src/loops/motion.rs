@@ -10,8 +10,12 @@ use crate::error::MultibodyError;
 /// The least share of its own of a condition below which a state lies beside a singular position.
 const BESIDE: f64 = 0.05;
 
-/// The least share below which a state is not projected: there rounding, ε/x² at the distance x, exceeds the error of the method.
+/// The least share below which a step must not end: there rounding, ε/x² at the distance x, exceeds the error of the method.
 const CLOSE_BY: f64 = 1e-6;
+
+/// How many such steps are refused, so that shorter ones are tried, and how many more are then accepted as they are.
+const REFUSED: u32 = 4;
+const ACCEPTED: u32 = 40;
 
 /// The motion y = (q, v) of a tree with closures under forces, as a field whose steps end where the closures hold.
 ///
@@ -27,7 +31,8 @@ const CLOSE_BY: f64 = 1e-6;
 ///
 /// # Accuracy
 /// At the distance x from a singular position rounding moves a state that is brought onto the branch by ε/x². Runs through such
-/// positions need a tolerance of about 1e-9; with much tighter ones they can end with too many or too small steps.
+/// positions take tolerances down to about 1e-10. A run with a tighter one may end at such a position with
+/// [`MultibodyError::SingularConstraint`].
 ///
 /// # Example
 /// A slider of 1 kg on the line y = 0 is tied by a rod of 1 m to a crank of 1 m, so that x = 2 cos φ. At φ = π/2 the rod lies on
@@ -68,6 +73,8 @@ pub struct ClosedMotion<'a, F> {
     beside: [bool; 2],
     stops: bool,
     stopped: Option<SingularPosition>,
+    /// How many states close by one singular position steps have ended at.
+    close_by: u32,
 }
 
 impl ClosedTree {
@@ -83,6 +90,7 @@ impl ClosedTree {
             beside: [false; 2],
             stops: false,
             stopped: None,
+            close_by: 0,
         }
     }
 }
@@ -116,19 +124,15 @@ impl<F> ClosedMotion<'_, F> {
     pub fn restart(&mut self) {
         self.work.usual_rank = 0;
         self.passages.clear();
-        self.beside = [false; 2];
-        self.stopped = None;
+        (self.beside, self.stopped, self.close_by) = ([false; 2], None, 0);
     }
 
     fn go_on(&self) -> Result<(), MultibodyError> {
-        match self.stopped {
-            Some(SingularPosition { t, condition }) => Err(MultibodyError::SingularConstraint {
-                closure: self.closed.closure_of(condition).to_owned(),
-                condition,
-                t,
-            }),
-            None => Ok(()),
-        }
+        self.stopped.map_or(Ok(()), |position| Err(self.singular(position)))
+    }
+
+    fn singular(&self, SingularPosition { t, condition }: SingularPosition) -> MultibodyError {
+        MultibodyError::SingularConstraint { closure: self.closed.closure_of(condition).to_owned(), condition, t }
     }
 }
 
@@ -175,15 +179,26 @@ impl<F: FnMut(f64, &[f64], &[f64], &mut [f64])> Field for ClosedMotion<'_, F> {
         let (q, v) = y.split_at_mut(tree.coordinates);
         self.work.is_closed = true;
         self.closed.project(&mut self.work, q, v, t)?;
-        let share = if self.work.rank < self.work.usual_rank { 0.0 } else { self.work.least_share() };
+        let (share, condition) = self.work.least_share();
         self.beside[1] = (CLOSE_BY..BESIDE).contains(&share);
         if share < CLOSE_BY {
             q.copy_from_slice(&self.work.start_q);
             v.copy_from_slice(&self.work.start_v);
+            // After a shorter step another one may go over the position, unless the run is to end here.
+            self.close_by += 1;
+            let stays = REFUSED < self.close_by && (self.stops || REFUSED + ACCEPTED < self.close_by);
+            if stays || self.close_by <= REFUSED {
+                let position = SingularPosition { t, condition };
+                self.stopped = stays.then_some(position);
+                return Err(self.singular(position));
+            }
             self.passages.pass_by(t);
         } else {
             self.work.usual_rank = self.work.rank;
             let found = self.passages.look(&self.work.gradients, tree.freedoms, self.work.independent(), t);
+            if found.is_some() || !self.beside[1] {
+                self.close_by = 0;
+            }
             if self.stops && found.is_some() {
                 self.stopped = found;
                 return self.go_on();

@@ -74,12 +74,19 @@ impl LoopWorkspace {
         self.rank
     }
 
-    /// The least share of the inertia of an independent condition that is its own, of the largest inertia it has had: 0 at a
-    /// singular position.
-    pub(super) fn least_share(&self) -> f64 {
-        self.independent()
-            .iter()
-            .fold(1.0, |least, &i| least.min(self.shares[i] / (self.scales[i] * self.scales[i] * self.largest[i])))
+    /// The least share of the inertia of an independent condition that is its own, of the largest inertia it has had, and the
+    /// condition. The share is 0 at a singular position, where fewer conditions are independent than usually.
+    pub(super) fn least_share(&self) -> (f64, usize) {
+        if self.rank < self.usual_rank {
+            return (0.0, self.order[self.rank]);
+        }
+        let share = |i: usize| self.shares[i] / (self.scales[i] * self.scales[i] * self.largest[i]);
+        self.independent().iter().fold(
+            (1.0, 0),
+            |(least, weakest), &i| {
+                if share(i) < least { (share(i), i) } else { (least, weakest) }
+            },
+        )
     }
 
     /// The independent conditions, those with the largest share of their own first.

@@ -6,7 +6,7 @@
 //! | `joint` of type revolute, continuous, prismatic, fixed, floating | the joint; planar joints are refused |
 //! | `limit`, `dynamics` | data of the joint |
 //! | `mimic` | a [`Mimic`], for a constraint |
-//! | `visual` | a [`Visual`], for pictures |
+//! | `visual` | a [`Visual`], for pictures; one without geometry or of another shape is left out |
 //! | `collision`, `material`, `transmission`, `gazebo`, `safety_controller`, `calibration` | nothing: they move nothing |
 //!
 //! Any other element is refused with its line.
@@ -16,11 +16,15 @@ mod visual;
 
 pub use visual::{Visual, VisualShape};
 
+use std::io::Read as _;
 use std::path::Path;
 
 use crate::error::MultibodyError;
 use crate::loops::{ClosedTree, LoopClosure};
 use crate::tree::RigidTree;
+
+/// Bytes of a file at most: 16 MiB.
+const LONGEST: u64 = 1 << 24;
 
 /// How the root of a file stands on the ground.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -138,12 +142,21 @@ impl Urdf {
     /// Reads a tree from a file.
     ///
     /// # Errors
-    /// [`MultibodyError::UrdfFile`]; as [`parse`](Self::parse).
+    /// [`MultibodyError::UrdfFile`], also for what is no file, as a directory or a device;
+    /// [`MultibodyError::UrdfFileTooLong`] above 16 MiB; as [`parse`](Self::parse).
     pub fn read(path: &Path, options: UrdfOptions) -> Result<Self, MultibodyError> {
-        let text = std::fs::read_to_string(path).map_err(|error| MultibodyError::UrdfFile {
-            path: path.display().to_string(),
-            reason: error.to_string(),
-        })?;
+        let refused = |reason: String| MultibodyError::UrdfFile { path: path.display().to_string(), reason };
+        let unread = |error: std::io::Error| refused(error.to_string());
+        // Before it is opened: to open a pipe waits for a writer.
+        if !std::fs::metadata(path).map_err(unread)?.is_file() {
+            return Err(refused("it is not a regular file".to_owned()));
+        }
+        let mut bytes = Vec::new();
+        std::fs::File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes)).map_err(unread)?;
+        if LONGEST < bytes.len() as u64 {
+            return Err(MultibodyError::UrdfFileTooLong { path: path.display().to_string(), limit: LONGEST });
+        }
+        let text = String::from_utf8(bytes).map_err(|error| refused(error.to_string()))?;
         Self::parse(&text, options)
     }
 }

@@ -94,7 +94,7 @@ impl<'a> Reader<'a> {
         let mut visuals = Vec::new();
         for &(link, element) in &links {
             for visual in elements(element).filter(|element| element.tag_name().name() == "visual") {
-                visuals.push(self.visual(link, visual)?);
+                visuals.extend(self.visual(link, visual)?);
             }
         }
         Ok(Urdf { name, tree: builder.build()?, mimics, visuals })
@@ -192,25 +192,31 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn visual(&self, link: &str, visual: Element<'a>) -> Result<Visual, MultibodyError> {
-        let (origin, attitude) = self.origin(visual)?;
-        let geometry = self.element(visual, "geometry")?;
-        let Some(shape) = elements(geometry).next() else {
-            let (what, element) = ("shape", "geometry".to_owned());
-            return Err(self.fault(geometry, UrdfFault::Missing { what, element }));
+    /// The picture of a link; nothing where it has no shape, or one that is not known. Pictures are no mechanics.
+    fn visual(&self, link: &str, visual: Element<'a>) -> Result<Option<Visual>, MultibodyError> {
+        let Some(shape) = find(visual, "geometry").and_then(|geometry| elements(geometry).next()) else {
+            return Ok(None);
         };
-        let number = |name| self.number(shape, name, None);
+        let not_negative = |attribute, value| {
+            if value < 0.0 { Err(self.fault(shape, UrdfFault::Negative { attribute, value })) } else { Ok(value) }
+        };
+        let number = |name| not_negative(name, self.number(shape, name, None)?);
         let shape = match shape.tag_name().name() {
             "box" => {
                 self.attribute(shape, "size")?;
-                VisualShape::Box { sides: self.vector(shape, "size", [0.0; 3])? }
+                let sides = self.vector(shape, "size", [0.0; 3])?;
+                for side in sides {
+                    not_negative("size", side)?;
+                }
+                VisualShape::Box { sides }
             }
             "cylinder" => VisualShape::Cylinder { radius: number("radius")?, length: number("length")? },
             "sphere" => VisualShape::Sphere { radius: number("radius")? },
             "mesh" => VisualShape::Mesh { file: self.attribute(shape, "filename")?.to_owned() },
-            other => return Err(self.fault(shape, UrdfFault::Unsupported { element: other.to_owned() })),
+            _ => return Ok(None),
         };
-        Ok(Visual { body: link.to_owned(), origin, attitude, shape })
+        let (origin, attitude) = self.origin(visual)?;
+        Ok(Some(Visual { body: link.to_owned(), origin, attitude, shape }))
     }
 
     /// The element `origin` of an element: its place and attitude.

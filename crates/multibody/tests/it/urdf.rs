@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use piola_multibody::{MultibodyError, Urdf, UrdfBase, UrdfFault, UrdfInertias, UrdfOptions};
+use piola_multibody::{MultibodyError, Urdf, UrdfBase, UrdfFault, UrdfInertias, UrdfOptions, VisualShape};
 use piola_testkit::{Tol, assert_close, golden};
 
 const ROUNDING: Tol = Tol::stated(1e-12, "the reference was computed in double precision");
@@ -97,6 +97,49 @@ fn files_are_refused_with_the_line_and_the_reason() {
     assert!(matches!(fault("<robot>\n<link>").1, UrdfFault::Syntax { .. }));
     let nameless = fault("<robot>\n<link/></robot>");
     assert_eq!(nameless, (2, UrdfFault::Missing { what: "name", element: "link".to_owned() }));
+}
+
+/// Pictures are no mechanics: a shape that is not known leaves the tree as it is. One that is known must have lengths.
+#[test]
+fn visuals_without_a_known_shape_are_left_out_and_negative_lengths_refused() {
+    let drawn = |visual: &str| format!("<robot name=\"r\">\n<link name=\"post\">\n{visual}\n</link></robot>");
+    let shape = |shape: &str| drawn(&format!("<visual><geometry>{shape}</geometry></visual>"));
+    let ball = "<visual><geometry><sphere radius=\"0.5\"/></geometry></visual>";
+    for left_out in [
+        "<visual/>",
+        "<visual><geometry/></visual>",
+        "<visual><geometry><capsule radius=\"1\" length=\"2\"/></geometry></visual>",
+        "<visual><origin xyz=\"here\"/></visual>",
+    ] {
+        let found = Urdf::parse(&drawn(&format!("{left_out}{ball}")), UrdfOptions::default()).unwrap();
+        assert_eq!((found.tree.bodies(), found.visuals.len()), (1, 1), "{left_out}");
+        assert_eq!(found.visuals[0].shape, VisualShape::Sphere { radius: 0.5 });
+    }
+    let negative = |attribute, value| (3, UrdfFault::Negative { attribute, value });
+    assert_eq!(fault(&shape("<sphere radius=\"-1\"/>")), negative("radius", -1.0));
+    assert_eq!(fault(&shape("<cylinder radius=\"1\" length=\"-2\"/>")), negative("length", -2.0));
+    assert_eq!(fault(&shape("<box size=\"1 -3 1\"/>")), negative("size", -3.0));
+    assert!(matches!(fault(&shape("<sphere radius=\"wide\"/>")).1, UrdfFault::NotNumbers { .. }));
+}
+
+#[test]
+fn what_is_no_file_and_files_that_are_too_long_are_refused() {
+    let folder = std::env::temp_dir();
+    for path in [folder.as_path(), Path::new("/dev/zero"), Path::new("none.urdf")] {
+        let error = Urdf::read(path, AS_GIVEN).unwrap_err();
+        assert!(matches!(error, MultibodyError::UrdfFile { .. }), "{error}");
+    }
+    let path = folder.join(format!("piola-long-{}.urdf", std::process::id()));
+    let text = "<robot name=\"r\"><link name=\"post\"/></robot>";
+    let longest = format!("{text}{}", " ".repeat((16 << 20) - text.len()));
+    std::fs::write(&path, &longest).unwrap();
+    let found = Urdf::read(&path, AS_GIVEN);
+    std::fs::write(&path, longest + " ").unwrap();
+    let longer = Urdf::read(&path, AS_GIVEN);
+    std::fs::remove_file(&path).unwrap();
+    assert!(found.is_ok());
+    let expected = MultibodyError::UrdfFileTooLong { path: path.display().to_string(), limit: 16_777_216 };
+    assert_eq!(longer.unwrap_err(), expected);
 }
 
 #[test]

@@ -27,7 +27,7 @@ static SINGULAR: [Word; 2] = [
 
 table! {
     /// A tree of rigid bodies from a URDF file, with the span of time in `[time]`. `[integrator]` may have a
-    /// `tolerance`, 1e-9 when absent. Limits of joints are not enforced: the summary names the joints that leave them.
+    /// `tolerance`, 1e-9 when absent: relative, and absolute in m, rad, m/s and rad/s. Limits of joints are not enforced: the summary names the joints that leave them.
     /// Coulomb friction of joints is not applied.
     pub(super) static ROBOT = "robot" {
         /// The URDF file, relative to the scene.
@@ -85,7 +85,10 @@ table! {
 static CLOSURES: [Word; 3] = [
     word("point", "two points coincide: three conditions"),
     word("hinge", "two points coincide and two axes are parallel: five conditions"),
-    word("frame", "the axes of both links coincide at two points: six conditions"),
+    word(
+        "frame",
+        "the axes of both links coincide at two points: seven conditions, six of them independent; the start decides which way round it closes",
+    ),
 ];
 
 table! {

@@ -1,13 +1,14 @@
 //! Scenes of robots beside closed forms, and their mistakes.
 
 use core::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use piola_scene::run::Outcome;
 use piola_scene::studies::robot::RobotMotion;
-use piola_scene::studies::{self, Findings, StudyPlan, StudyRun};
+use piola_scene::studies::{self, Findings, StudyPlan, StudyRun, Subject};
 use piola_scene::{SceneError, SceneFile, Study};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
+use serde_json::Value;
 
 fn scene(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name)
@@ -156,16 +157,26 @@ fn free_root_falls_as_a_stone() {
     assert_close("position", &last.q[4..7], &[1.0, 0.0, 2.0 - 0.5 * 9.81], tol);
 }
 
-#[test]
-fn viewers_find_bodies_and_their_motion() {
-    let study = load("two-link-arm.toml", &["output.samples=11"]);
-    let run = run(&study);
-    let folder = std::env::temp_dir().join(format!("piola-gltf-{}", std::process::id()));
-    let written = run.write(&piola_charts::Folder::prepare(&folder).unwrap(), &study, &StudyPlan::of(&study));
+/// An empty folder for the files of a test.
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("piola-{name}-{}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// The animation that a study writes.
+fn animation(study: &Study, folder: &Path) -> Value {
+    let written = run(study).write(&piola_charts::Folder::prepare(folder).unwrap(), study, &StudyPlan::of(study));
     assert!(written.failures.is_empty());
     let text = std::fs::read_to_string(folder.join("motion.gltf")).unwrap();
-    std::fs::remove_dir_all(&folder).unwrap();
-    let file: serde_json::Value = serde_json::from_str(&text).unwrap();
+    std::fs::remove_dir_all(folder).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+#[test]
+fn viewers_find_bodies_and_their_motion() {
+    let file = animation(&load("two-link-arm.toml", &["output.samples=11"]), &folder("gltf"));
     let names: Vec<&str> = file["nodes"].as_array().unwrap().iter().filter_map(|node| node["name"].as_str()).collect();
     assert_eq!(names, ["Two-link arm", "wall", "upper", "lower"]);
     let channels = file["animations"][0]["channels"].as_array().unwrap();
@@ -173,17 +184,133 @@ fn viewers_find_bodies_and_their_motion() {
     // Rods are cylinders, the wall a box: there are no balls.
     assert_eq!(file["meshes"].as_array().unwrap().len(), 2);
     let input = &file["animations"][0]["samplers"][0]["input"];
-    let times = &file["accessors"][usize::try_from(input.as_u64().unwrap()).unwrap()];
+    let times = &file["accessors"][index(input)];
     assert_eq!((times["count"].as_u64(), times["max"][0].as_f64()), (Some(11), Some(5.0)));
+}
+
+fn index(value: &Value) -> usize {
+    usize::try_from(value.as_u64().unwrap()).unwrap()
+}
+
+fn bytes_of(base64: &str) -> Vec<u8> {
+    let letters: Vec<char> = ('A'..='Z').chain('a'..='z').chain('0'..='9').chain(['+', '/']).collect();
+    let mut bytes = Vec::new();
+    for four in base64.as_bytes().chunks(4) {
+        let place = |&letter: &u8| letters.iter().position(|&known| known == char::from(letter));
+        let known: Vec<usize> = four.iter().filter_map(place).collect();
+        let bits = known.iter().fold(0, |bits, &place| bits << 6 | place) << (6 * (4 - known.len()));
+        bytes.extend((1..known.len()).map(|k| u8::try_from(bits >> (24 - 8 * k) & 255).unwrap()));
+    }
+    bytes
+}
+
+/// The triangles of boxes, cylinders and balls are counterclockwise from outside, where their normals point.
+#[test]
+fn surfaces_show_their_outside_to_viewers() {
+    let folder = folder("surfaces");
+    let body =
+        |name: &str, shape: &str| format!("<link name='{name}'><visual><geometry>{shape}</geometry></visual></link>");
+    let hinge =
+        "<joint name='hinge' type='continuous'><parent link='a'/><child link='b'/><dynamics damping='1'/></joint>";
+    let inertial = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>";
+    let shapes = [
+        body("a", "<box size='1 2 3'/>"),
+        body("b", "<cylinder radius='1' length='2'/>").replace("<visual>", &format!("{inertial}<visual>")),
+        body("c", "<sphere radius='1'/>"),
+    ];
+    let fixed = "<joint name='fixed' type='fixed'><parent link='b'/><child link='c'/></joint>";
+    std::fs::write(folder.join("shapes.urdf"), format!("<robot name='r'>{}{hinge}{fixed}</robot>", shapes.concat()))
+        .unwrap();
+    let scene = "[robot]\nfile = \"shapes.urdf\"\nanimation = true\n[time]\nend = \"1 s\"\n[output]\nsamples = 2\n";
+    std::fs::write(folder.join("shapes.toml"), scene).unwrap();
+    let Ok(SceneFile::Study(study)) = SceneFile::load(&folder.join("shapes.toml"), &[]) else { panic!("a study") };
+    let file = animation(&study, &folder);
+    let data = bytes_of(file["buffers"][0]["uri"].as_str().unwrap().split_once("base64,").unwrap().1);
+    assert_eq!(data.len(), index(&file["buffers"][0]["byteLength"]));
+    let bytes = |accessor: &Value| {
+        let view = &file["bufferViews"][index(&file["accessors"][index(accessor)]["bufferView"])];
+        let start = index(&view["byteOffset"]);
+        data[start..start + index(&view["byteLength"])].to_vec()
+    };
+    let vectors = |accessor: &Value| -> Vec<[f32; 3]> {
+        let number = |four: &[u8]| f32::from_le_bytes(four.try_into().unwrap());
+        bytes(accessor).chunks(12).map(|twelve| [0, 4, 8].map(|k| number(&twelve[k..k + 4]))).collect()
+    };
+    let mut counts = Vec::new();
+    for mesh in file["meshes"].as_array().unwrap() {
+        let surface = &mesh["primitives"][0];
+        let places = vectors(&surface["attributes"]["POSITION"]);
+        let normals = vectors(&surface["attributes"]["NORMAL"]);
+        let corners = bytes(&surface["indices"]);
+        let corners: Vec<usize> = corners.chunks(2).map(|two| u16::from_le_bytes([two[0], two[1]]).into()).collect();
+        let mut count = 0;
+        for triangle in corners.chunks(3) {
+            let [a, b, c] = [0, 1, 2].map(|k| places[triangle[k]]);
+            let [p, q] = [b, c].map(|end| [0, 1, 2].map(|k| end[k] - a[k]));
+            let area = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+            // At the middle of a cap and at the poles of a ball triangles have no area.
+            if 1e-6 < area.iter().map(|x| x * x).sum::<f32>().sqrt() {
+                count += 1;
+                for &corner in triangle {
+                    let along: f32 = area.iter().zip(normals[corner]).map(|(x, n)| x * n).sum();
+                    assert!(0.0 < along, "{triangle:?} of {mesh}");
+                }
+            }
+        }
+        counts.push(count);
+    }
+    assert_eq!(counts, [12, 4 * 24, 22 * 24]); // box, cylinder, ball
+}
+
+/// Two closures, one of whose names begins with the other's: the mistake stands at the one that does not close.
+#[test]
+fn closure_that_does_not_close_is_named_and_no_other() {
+    let folder = folder("closures");
+    let second =
+        "\n[[closure]]\nname = \"rocker pin 2\"\nfirst = \"coupler\"\nsecond = \"ground\"\nsecond_at = [9, 0, 0]\n";
+    let text = std::fs::read_to_string(scene("four-bar.toml")).unwrap();
+    std::fs::write(folder.join("four-bar.toml"), format!("{text}{second}")).unwrap();
+    std::fs::create_dir(folder.join("data")).unwrap();
+    std::fs::copy(scene("data/four-bar.urdf"), folder.join("data/four-bar.urdf")).unwrap();
+    let loaded = SceneFile::load(&folder.join("four-bar.toml"), &[]);
+    std::fs::remove_dir_all(&folder).unwrap();
+    let Err(SceneError::Invalid(report)) = loaded else { panic!("{loaded:?}") };
+    let report = report.to_string();
+    for word in ["closes `rocker pin 2`", "name = \"rocker pin 2\""] {
+        assert!(report.contains(word), "`{word}` in {report}");
+    }
+}
+
+#[test]
+fn plan_tells_how_far_closures_move_the_start() {
+    let study = load("four-bar.toml", &[]);
+    let Subject::Robot(robot) = &study.subject else { panic!("{:?}", study.subject) };
+    let given = [30.0_f64, 20.0, 100.0].map(f64::to_radians);
+    let moves = robot.start.0.iter().zip(given).map(|(a, b)| (a - b).abs());
+    let most = moves.fold(0.0, f64::max);
+    assert!(0.01 < most && most < 0.5, "{most}");
+    let plan = StudyPlan::of(&study).to_string();
+    assert!(plan.contains(&format!("coordinates move by at most {most:.1e} to satisfy them")), "{plan}");
+    assert!(plan.contains("relative and absolute tolerance 1e-9"), "{plan}");
 }
 
 #[test]
 fn mistakes_of_robots_are_named_with_their_place_and_what_is_valid() {
-    let cases: [(&str, &[&str], &[&str]); 9] = [
+    let cases: [(&str, &[&str], &[&str]); 11] = [
         ("two-link-arm.toml", &["robot.file=data/none.urdf"], &["none.urdf", "a URDF file"]),
         ("two-link-arm.toml", &["robot.file=data/double-pendulum.csv"], &["line 1"]),
         ("two-link-arm.toml", &["drive.elbow.displacement=1"], &["`displacement` of the joint `elbow`", "angle, rate"]),
         ("six-joint-arm.toml", &["drive.elbow.angle=4"], &["starts at 4, outside its limits", "from -3.14"]),
+        (
+            "six-joint-arm.toml",
+            &["drive.wrist roll.rate=1 rad/s"],
+            &["`rate` of the locked joint `wrist roll`", "without a rate or speed"],
+        ),
+        (
+            "six-joint-arm.toml",
+            &["robot.base=free", "drive.wrist roll.locked=false", "output.samples=1000000"],
+            &["1000000 samples of 30 numbers are more than 25000000", "samples = at most 833333"],
+        ),
         ("two-link-arm.toml", &["robot.velocity=[1, 0, 0]"], &["a root that is fixed", "free"]),
         ("four-bar.toml", &["closure.rocker pin.second=rokcer"], &["no link is named `rokcer`", "rocker"]),
         (

@@ -10,6 +10,9 @@ use piola_multibody::{
 use super::{JointDrive, RobotStudy};
 use crate::model::Builder;
 
+/// Numbers that are recorded at most: about a gigabyte with their tables.
+const MOST_NUMBERS: usize = 25_000_000;
+
 impl Builder<'_> {
     pub(in crate::studies) fn robot(&mut self, scene: &Record, table: &Record, samples: u32) -> Option<RobotStudy> {
         let time = self.time(scene, None);
@@ -66,10 +69,13 @@ impl Builder<'_> {
         for record in scene.records("closure") {
             self.closure(record, &mut closed);
         }
+        let given = q.clone();
         if 0 < closed.conditions() {
             let placed = closed.project(&mut closed.workspace(), &mut q, &mut v, time.map_or(0.0, |time| time.start));
             let of_error = |closure: &Record| match (&placed, closure.text("name")) {
-                (Err(MultibodyError::NoClosedState { closure, .. }), Some(name)) => closure.starts_with(name),
+                (Err(MultibodyError::NoClosedState { closure, .. }), Some(name)) => {
+                    closure.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(", axis "))
+                }
                 _ => false,
             };
             let closure = scene.records("closure").iter().find(|closure| of_error(closure));
@@ -77,6 +83,15 @@ impl Builder<'_> {
             self.sound(record, key, placed, "angles at the start near those at which the loops close")?;
         }
         let names = names(&tree);
+        // Time, coordinates, rates, energies and work at each instant.
+        let columns = 5 + names.iter().map(Vec::len).sum::<usize>();
+        if MOST_NUMBERS / columns < samples as usize {
+            let place = scene.record("output").map_or(scene.place.clone(), |table| table.place_of("samples"));
+            self.wrong(
+                Mistake::new(place, format!("{samples} samples of {columns} numbers are more than {MOST_NUMBERS}"))
+                    .valid(format!("samples = at most {}", MOST_NUMBERS / columns)),
+            );
+        }
         let frictions = tree.joints().iter().filter(|place| 0.0 < place.joint.friction);
         Some(RobotStudy {
             file,
@@ -86,6 +101,7 @@ impl Builder<'_> {
             samples,
             animation: table.flag("animation")?,
             stops: table.text("singular_positions")? == "stop",
+            moved: q.iter().zip(&given).fold(0.0, |most, (a, b)| (a - b).abs().max(most)),
             start: (q, v),
             drives,
             names,
@@ -162,7 +178,13 @@ impl Builder<'_> {
         drive.stiffness = record.number("stiffness")?;
         drive.rest = record.number("rest")?;
         if record.flag("locked")? {
-            v[first_freedom] = 0.0;
+            if 0.0 < v[first_freedom].abs() {
+                let key = if record.has("rate") { "rate" } else { "speed" };
+                self.wrong(
+                    Mistake::new(record.place_of(key), format!("`{key}` of the locked joint `{}`", joint.name))
+                        .valid("a locked joint without a rate or speed, or locked = false"),
+                );
+            }
             let lock = LoopClosure::Gear { follower: first_freedom, leader: first_freedom, ratio: 0.0, offset: at };
             let locked = closed.close(format!("{} locked", joint.name), lock);
             self.sound(record, "locked", locked, "a joint with one coordinate")?;
@@ -222,16 +244,14 @@ fn undriven(tree: &piola_multibody::RigidTree) -> Vec<JointDrive> {
     let mut drives = Vec::new();
     for place in tree.joints() {
         let single = place.joint.kind.freedoms() == place.joint.kind.coordinates();
-        for k in 0..place.joint.kind.freedoms() {
-            drives.push(JointDrive {
-                coordinate: single.then_some(place.first_coordinate + k),
-                effort: 0.0,
-                damping: place.joint.damping,
-                stiffness: 0.0,
-                rest: 0.0,
-                limits: place.joint.limits,
-            });
-        }
+        drives.extend((0..place.joint.kind.freedoms()).map(|k| JointDrive {
+            coordinate: single.then_some(place.first_coordinate + k),
+            effort: 0.0,
+            damping: place.joint.damping,
+            stiffness: 0.0,
+            rest: 0.0,
+            limits: place.joint.limits,
+        }));
     }
     drives
 }

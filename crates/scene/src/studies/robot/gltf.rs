@@ -32,15 +32,18 @@ struct Data {
 }
 
 impl Data {
-    fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
+    /// An accessor with bytes of its own; its index.
+    fn accessor(&mut self, bytes: &[u8], target: Option<u32>, mut accessor: Value) -> usize {
         let mut view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
         if let Some(target) = target {
             view["target"] = target.into();
         }
         self.bytes.extend_from_slice(bytes);
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        accessor["bufferView"] = self.views.len().into();
         self.views.push(view);
-        self.views.len() - 1
+        self.accessors.push(accessor);
+        self.accessors.len() - 1
     }
 
     /// Rows of `width` numbers; the accessor.
@@ -53,27 +56,19 @@ impl Data {
         };
         let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][width - 1];
         let accessor = json!({
-            "bufferView": self.view(&bytes, target),
             "componentType": FLOAT,
             "count": numbers.len() / width,
             "type": kind,
             "min": extreme(f32::min),
             "max": extreme(f32::max),
         });
-        self.accessors.push(accessor);
-        self.accessors.len() - 1
+        self.accessor(&bytes, target, accessor)
     }
 
     fn indices(&mut self, corners: &[u16]) -> usize {
         let bytes: Vec<u8> = corners.iter().flat_map(|x| x.to_le_bytes()).collect();
-        let accessor = json!({
-            "bufferView": self.view(&bytes, Some(34963)),
-            "componentType": INDEX,
-            "count": corners.len(),
-            "type": "SCALAR",
-        });
-        self.accessors.push(accessor);
-        self.accessors.len() - 1
+        let accessor = json!({ "componentType": INDEX, "count": corners.len(), "type": "SCALAR" });
+        self.accessor(&bytes, Some(34963), accessor)
     }
 }
 
@@ -91,14 +86,14 @@ impl Surface {
         self.normals.extend(normal);
     }
 
-    /// A grid of corners that were added row by row, as triangles.
+    /// A grid of corners that were added row by row, as triangles: counterclockwise where rows go to the right and downwards.
     #[expect(clippy::cast_possible_truncation, reason = "some thousand corners at most")]
     fn grid(&mut self, first: usize, rows: usize, columns: usize) {
         for row in 0..rows - 1 {
             for column in 0..columns - 1 {
                 let a = (first + row * columns + column) as u16;
                 let below = a + columns as u16;
-                self.corners.extend([a, a + 1, below, below, a + 1, below + 1]);
+                self.corners.extend([a, below, a + 1, a + 1, below, below + 1]);
             }
         }
     }
@@ -171,7 +166,11 @@ pub(super) fn animation(found: &RobotMotion, robot: &RobotStudy, title: &str) ->
     used.dedup();
     let mut meshes = Vec::new();
     for form in &used {
-        let surface = form.surface();
+        let surface = match form {
+            Form::Cube => Surface::cube(),
+            Form::Cylinder => Surface::cylinder(),
+            Form::Sphere => Surface::sphere(),
+        };
         let places = data.floats(&surface.places, 3, Some(34962));
         let normals = data.floats(&surface.normals, 3, Some(34962));
         let indices = data.indices(&surface.corners);
@@ -185,44 +184,39 @@ pub(super) fn animation(found: &RobotMotion, robot: &RobotStudy, title: &str) ->
     let mut nodes = vec![json!({ "name": title, "rotation": [-half, 0.0, 0.0, half] })];
     let (mut bodies, mut channels, mut samplers) = (Vec::new(), Vec::new(), Vec::new());
     let mut work = tree.workspace();
-    for (place, shapes) in tree.joints().iter().zip(&shapes) {
-        let (mut places, mut turns) = (Vec::new(), Vec::<f64>::new());
-        for frame in &frames {
-            tree.forward_kinematics(&mut work, &frame.q).ok()?;
+    let mut poses = vec![(Vec::new(), Vec::<f64>::new()); shapes.len()];
+    for frame in &frames {
+        tree.forward_kinematics(&mut work, &frame.q).ok()?;
+        for (place, (places, turns)) in tree.joints().iter().zip(&mut poses) {
             let pose = tree.place_of(&work, place.child).ok()?;
             places.extend(pose.origin);
             let turn = quaternion(pose.rotation)?;
-            let before =
-                turns.len().checked_sub(4).map_or(turn, |at| [turns[at], turns[at + 1], turns[at + 2], turns[at + 3]]);
+            let before = turns.last_chunk().copied().unwrap_or(turn);
             // Of the two quaternions of an attitude the nearer one.
             let sign = if turn.iter().zip(before).map(|(a, b)| a * b).sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
             turns.extend(turn.map(|x| sign * x));
         }
+    }
+    for ((place, shapes), (places, turns)) in tree.joints().iter().zip(&shapes).zip(&poses) {
         let node = nodes.len();
         bodies.push(node);
         let children: Vec<usize> = (node + 1..=node + shapes.len()).collect();
-        let mut body = json!({
+        nodes.push(json!({
             "name": tree.body_name(place.child),
             "translation": places[..3],
             "rotation": turns[..4],
-        });
-        if !children.is_empty() {
-            body["children"] = children.into();
-        }
-        nodes.push(body);
+            "children": children,
+        }));
         nodes.extend(shapes.iter().map(|shape| shape.node(used.binary_search(&shape.form).unwrap_or_default())));
-        for (path, output) in
-            [("translation", data.floats(&places, 3, None)), ("rotation", data.floats(&turns, 4, None))]
-        {
+        for (path, numbers, width) in [("translation", places, 3), ("rotation", turns, 4)] {
+            let output = data.floats(numbers, width, None);
             channels.push(json!({ "sampler": samplers.len(), "target": { "node": node, "path": path } }));
             samplers.push(json!({ "input": times, "output": output, "interpolation": "LINEAR" }));
         }
     }
-    if !bodies.is_empty() {
-        nodes[0]["children"] = bodies.into();
-    }
+    nodes[0]["children"] = bodies.into();
     let Data { bytes, views, accessors } = data;
-    let mut file = json!({
+    let file = json!({
         "asset": { "version": "2.0", "generator": "piola" },
         "scene": 0,
         "scenes": [{ "name": title, "nodes": [0] }],
@@ -232,13 +226,11 @@ pub(super) fn animation(found: &RobotMotion, robot: &RobotStudy, title: &str) ->
             "name": "bodies",
             "pbrMetallicRoughness": { "baseColorFactor": [0.35, 0.55, 0.75, 1.0], "metallicFactor": 0.1, "roughnessFactor": 0.6 },
         }],
+        "animations": [{ "name": "motion", "channels": channels, "samplers": samplers }],
         "accessors": accessors,
         "bufferViews": views,
         "buffers": [{ "byteLength": bytes.len(), "uri": format!("data:application/octet-stream;base64,{}", base64(&bytes)) }],
     });
-    if !channels.is_empty() {
-        file["animations"] = json!([{ "name": "motion", "channels": channels, "samplers": samplers }]);
-    }
     serde_json::to_string(&file).ok()
 }
 
@@ -248,16 +240,6 @@ enum Form {
     Cube,
     Cylinder,
     Sphere,
-}
-
-impl Form {
-    fn surface(self) -> Surface {
-        match self {
-            Self::Cube => Surface::cube(),
-            Self::Cylinder => Surface::cylinder(),
-            Self::Sphere => Surface::sphere(),
-        }
-    }
 }
 
 /// A surface on a body.
@@ -275,7 +257,7 @@ impl Shape {
     }
 }
 
-/// The shapes of a body: those of the file, or thin boxes to its joints.
+/// The shapes of a body: those of the file, or thin boxes to its joints; at least one.
 fn shapes(robot: &RobotStudy, tree: &RigidTree, body: BodyIndex) -> Vec<Shape> {
     let mut shapes = Vec::new();
     let name = tree.body_name(body);

@@ -38,7 +38,7 @@ pub struct RobotStudy {
     pub visuals: Vec<Visual>,
     /// The span of time.
     pub time: TimeSpan,
-    /// Relative tolerance of a step.
+    /// Tolerance of a step: relative, and absolute in SI units.
     pub tolerance: f64,
     /// Instants that are recorded.
     pub samples: u32,
@@ -46,6 +46,8 @@ pub struct RobotStudy {
     pub animation: bool,
     /// Whether the run stops before singular positions.
     pub stops: bool,
+    /// By how much the closures move a coordinate of the start at most, rad or m.
+    pub moved: f64,
     /// Coordinates and rates at the start, on the closures.
     pub start: (Vec<f64>, Vec<f64>),
     /// What drives each freedom.
@@ -89,7 +91,7 @@ impl RobotStudy {
         let file = self.file.file_name().unwrap_or_default().display();
         plan.system = format!("robot of {} bodies with {} freedoms from {file}", tree.bodies(), tree.freedoms());
         plan.method = format!(
-            "dormand-prince-853, relative tolerance {:e}, {} s to {} s, recorded at {} instants",
+            "dormand-prince-853, relative and absolute tolerance {:e}, {} s to {} s, recorded at {} instants",
             self.tolerance,
             words::number(self.time.start),
             words::number(self.time.end),
@@ -106,7 +108,8 @@ impl RobotStudy {
         } else {
             let count = self.closed.conditions();
             let plural = if count == 1 { "" } else { "s" };
-            plan.compute("closures", format!("{count} condition{plural}, by multipliers"));
+            let what = format!("{count} condition{plural}, by multipliers");
+            plan.compute("closures", format!("{what}; coordinates move by at most {:.1e} to satisfy them", self.moved));
             let how = if self.stops { "the run stops before them" } else { "passed on the branch of the velocity" };
             plan.compute("singular positions", how);
         }

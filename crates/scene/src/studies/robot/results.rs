@@ -42,14 +42,10 @@ impl RobotMotion {
 
     fn coordinates(&self, asked: &RobotStudy) -> String {
         let mut text = String::from("time_s");
-        let quoted = |name: &str| {
-            if name.contains([',', '"']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.to_string() }
-        };
-        for name in &asked.names[0] {
-            let _ = write!(text, ",{}", quoted(name));
-        }
-        for name in &asked.names[1] {
-            let _ = write!(text, ",{}", quoted(&format!("rate of {name}")));
+        let rates = asked.names[1].iter().map(|name| format!("rate of {name}"));
+        for name in asked.names[0].iter().cloned().chain(rates) {
+            let quote = if name.contains([',', '"', '\n']) { "\"" } else { "" };
+            let _ = write!(text, ",{quote}{}{quote}", name.replace('"', "\"\""));
         }
         text.push('\n');
         for sample in &self.samples {
