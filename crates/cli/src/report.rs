@@ -33,7 +33,11 @@ pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
     line("momentum", run.drifts.momentum);
     line("angular momentum", run.drifts.angular_momentum);
     if let Some(answers) = &run.answers {
-        answers_table(&mut text, run, answers);
+        answers_table(&mut text, (scene, run), answers);
+    }
+    for (t, name) in run.history.singular_positions.iter().take(SHOWN) {
+        let _ =
+            writeln!(text, "singular position at {t:.6} s: constraint `{name}` depends on others, motions may branch");
     }
     if let Some(works) = run.history.works.last() {
         let _ = writeln!(text, "\n{:<24}{:>12}", "work of", "J");
@@ -52,11 +56,11 @@ pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
 }
 
 /// Answers to the questions of a scene.
-fn answers_table(text: &mut String, run: &Run, answers: &Answers) {
+fn answers_table(text: &mut String, (scene, run): (&Scene, &Run), answers: &Answers) {
     text.push('\n');
     match answers {
         Answers::Phase(found) => {
-            if !found.crossings.is_empty() {
+            if scene.asks_for_section() {
                 let _ = writeln!(text, "{:<24}{:>12}", "crossings of the section", found.crossings.len());
             }
             if let Some(exponent) = found.exponent {

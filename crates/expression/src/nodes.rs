@@ -233,7 +233,8 @@ fn apply<T: Real>(function: Function, x: T) -> T {
         Function::Cosh => x.cosh(),
         Function::Tanh => x.tanh(),
         Function::Abs => x.abs(),
-        Function::Sign => T::select(x.less_than(T::zero()), T::lit(-1.0), T::one()),
+        // What is not a number stays so.
+        Function::Sign => T::select(x.less_than(T::zero()), T::lit(-1.0), T::select(T::zero().at_most(x), T::one(), x)),
     }
 }
 
@@ -245,7 +246,8 @@ fn combine<T: Real>(operation: Operation, a: T, b: T) -> T {
         Operation::Quotient => a / b,
         Operation::Power => a.powf(b),
         Operation::Atan2 => a.atan2(b),
-        Operation::Min => T::select(b.less_than(a), b, a),
-        Operation::Max => T::select(a.less_than(b), b, a),
+        // Neither comparison holds where one is not a number: then the sum is none either.
+        Operation::Min => T::select(a.at_most(b), a, T::select(b.less_than(a), b, a + b)),
+        Operation::Max => T::select(b.at_most(a), a, T::select(a.less_than(b), b, a + b)),
     }
 }

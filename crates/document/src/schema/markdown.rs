@@ -35,7 +35,7 @@ fn table(text: &mut String, table: &Table, heading: &str) {
         if let Kind::Choice(words) = key.kind {
             let _ = write!(text, "| `{}` | |\n|---|---|\n", key.name);
             for word in words {
-                let _ = writeln!(text, "| `\"{}\"` | {} |", word.name, word.doc);
+                let _ = writeln!(text, "| `\"{}\"` | {} |", word.name, cell(word.doc));
             }
             text.push('\n');
         }
@@ -72,10 +72,16 @@ fn absent(key: &Key) -> String {
     }
 }
 
+/// Text in a cell of a table, where `|` would begin the next one.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
+}
+
 fn meaning(key: &Key) -> String {
+    let doc = cell(key.doc);
     if key.only_for.is_empty() {
-        return key.doc.to_string();
+        return doc;
     }
     let types: Vec<String> = key.only_for.iter().map(|name| format!("`{name}`")).collect();
-    format!("{} Only of type {}.", key.doc, types.join(", "))
+    format!("{doc} Only of type {}.", types.join(", "))
 }

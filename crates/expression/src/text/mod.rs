@@ -7,7 +7,7 @@
 //! atom     number [ [unit] ] | name | `name` | function ( sum, … ) | ( sum )
 //! ```
 //! `3 [N/m]` is a number with a unit; a number without one is a pure number. Both sides of a sum must have one dimension, and
-//! arguments of functions none; angles count as pure numbers. Only an expression that is one bare number takes the dimension
+//! arguments of functions none; angles count as pure numbers. Only an expression that is one bare number (`3`, `-3`, `(3)`) takes the dimension
 //! that is needed.
 //!
 //! The parser is our own: of the crates that parse formulas (`exmex`, `evalexpr`, `fasteval`, `meval`) none knows units, and

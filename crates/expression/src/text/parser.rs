@@ -47,15 +47,25 @@ pub(super) fn parse(text: &str, names: &ExpressionNames, expected: Dimension) ->
             "a sign + - * / ^ between two parts, as in 2 * x",
         ));
     }
-    let bare = matches!(tokens.as_slice(), [Token::Number(_, None)] | [Token::Sign('-'), Token::Number(_, None)]);
     let expected = plain(expected);
-    if names.with_units && whole.dimension != expected && !bare {
+    if names.with_units && whole.dimension != expected && bare(&tokens).is_none() {
         return Err(ExpressionMistake::new(
             format!("it is {} instead of {}", words(whole.dimension), words(expected)),
             format!("numbers with their units, as 2 [{}]", expected.si_unit()),
         ));
     }
     Expression::new(parser.nodes).map_err(|error| ExpressionMistake::new(error.to_string(), "a shorter expression"))
+}
+
+/// The number without a unit that tokens are, with signs before it and brackets about it.
+fn bare(mut tokens: &[Token]) -> Option<f64> {
+    loop {
+        tokens = match tokens {
+            [Token::Number(value, None)] => return Some(*value),
+            [Token::Sign('+' | '-'), rest @ ..] | [Token::Sign('('), rest @ .., Token::Sign(')')] => rest,
+            _ => return None,
+        };
+    }
 }
 
 /// A part of an expression: the nodes from `start` on, of which the last is its value.
@@ -130,18 +140,23 @@ impl Parser<'_> {
     }
 
     fn sum(&mut self) -> Result<Part, ExpressionMistake> {
+        // A written zero without a unit has every dimension; a parameter that is zero has its own.
+        let zero = |tokens: &[Token]| bare(tokens).is_some_and(|value| value.abs() <= 0.0);
+        let first = self.next;
         let mut sum = self.product()?;
+        let mut zero_left = zero(&self.tokens[first..self.next]);
         while let Some(sign) = self.take(&['+', '-']) {
-            // Zero has every dimension.
-            let zero = |parser: &Self, part: &Part| parser.number(part).is_some_and(|value| value.abs() <= 0.0);
-            let (left, zero_left) = (self.last(), zero(self, &sum));
+            let (left, first) = (self.last(), self.next);
             let term = self.product()?;
+            let zero_term = zero(&self.tokens[first..self.next]);
             let dimension = if zero_left { term.dimension } else { sum.dimension };
-            if sum.dimension != term.dimension && !zero_left && !zero(self, &term) {
+            if sum.dimension != term.dimension && !zero_left && !zero_term {
                 let operation = if sign == '+' { "added to" } else { "taken from" };
                 let (left, right) = (words(sum.dimension), words(term.dimension));
-                return Err(ExpressionMistake::new(format!("{right} is {operation} {left}"), format!("twice {left}")));
+                let valid = format!("two parts of the dimension {left}");
+                return Err(ExpressionMistake::new(format!("{right} is {operation} {left}"), valid));
             }
+            zero_left &= zero_term;
             let operation = if sign == '+' { Operation::Sum } else { Operation::Difference };
             sum = self.push(sum.start, Node::Operation(operation, left, self.last()), dimension)?;
         }
@@ -283,7 +298,8 @@ impl Parser<'_> {
         self.require(')', &format!("must close {name}(…)"))?;
         if first.dimension != second.dimension {
             let (first, second) = (words(first.dimension), words(second.dimension));
-            return Err(ExpressionMistake::new(format!("{name} of {first} and {second}"), format!("twice {first}")));
+            let valid = format!("two parts of the dimension {first}");
+            return Err(ExpressionMistake::new(format!("{name} of {first} and {second}"), valid));
         }
         let dimension = if *operation == Operation::Atan2 { Dimension::NONE } else { first.dimension };
         self.push(start, Node::Operation(*operation, left, self.last()), dimension)

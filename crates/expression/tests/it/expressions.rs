@@ -116,3 +116,19 @@ fn nodes_that_form_no_tree_are_refused() {
     let (depth, most) = (DEEPEST_EXPRESSION + 1, DEEPEST_EXPRESSION);
     assert_eq!(refused(chain(depth)), Some(ExpressionError::ExpressionTooDeep { depth, most }));
 }
+
+#[test]
+fn what_is_not_a_number_stays_so() {
+    let read = |variable| if variable == Variable::Coordinate(0) { f64::NAN } else { 2.0 };
+    let sign = expression(vec![Q, Node::Function(Function::Sign, 0)]);
+    assert!(sign.evaluate(&read).is_nan());
+    let signs = [-3.0, 0.0, 3.0].map(|x| sign.evaluate(&|_| x));
+    assert_close("signs", &signs, &[-1.0, 1.0, 1.0], Tol::ulps(0.0));
+    for operation in [Operation::Min, Operation::Max] {
+        for order in [[Q, P], [P, Q]] {
+            let of_two = expression(vec![order[0], order[1], Node::Operation(operation, 0, 1)]);
+            assert!(of_two.evaluate(&read).is_nan(), "{operation:?} of {order:?}");
+            assert!(of_two.partial(Variable::Coordinate(0), &read).value.is_nan());
+        }
+    }
+}

@@ -69,3 +69,25 @@ fn what_cannot_be_read_is_refused_with_what_would_be_valid() {
             && !names.add("sin", NameMeaning::Number(1.0), Dimension::NONE)
     );
 }
+
+#[test]
+fn only_a_written_zero_without_a_unit_has_every_dimension() {
+    let mut names = names();
+    assert!(names.add("none", NameMeaning::Number(0.0), Dimension::FORCE));
+    let length = |text: &str| parse(text, &names, Dimension::LENGTH);
+    for text in ["0 + 3 [m]", "3 [m] - 0", "0 + 0 + 3 [m]", "(0) + 3 [m]"] {
+        assert_close(text, &[at(&length(text).unwrap())], &[3.0], Tol::ulps(0.0));
+    }
+    for text in ["none + 3 [m]", "3 [m] + none", "0 [N] + 3 [m]", "0 + none + 3 [m]"] {
+        let mistake = length(text).unwrap_err();
+        assert!(mistake.valid.starts_with("two parts of the dimension"), "{text}: {mistake:?}");
+    }
+}
+
+#[test]
+fn a_bare_number_with_signs_and_brackets_takes_the_dimension_that_is_needed() {
+    for (text, value) in [("7", 7.0), ("+3", 3.0), ("(3)", 3.0), ("-(3)", -3.0), ("(-3)", -3.0)] {
+        assert_close(text, &[at(&parse(text, &names(), Dimension::FORCE).unwrap())], &[value], Tol::ulps(0.0));
+    }
+    assert!(parse("(1) + (2)", &names(), Dimension::FORCE).is_err());
+}

@@ -24,12 +24,11 @@ impl Surroundings<'_> {
             }
             kind => {
                 let ends = [self.anchor(record, "from", "from_at")?, self.anchor(record, "to", "to_at")?];
-                Self::apart(record, &ends)?;
+                self.apart(record, &ends)?;
                 if kind == "loop" {
                     return Ok(ConstraintKind::Loop { ends });
                 }
-                let q = &self.mechanism.position;
-                let places = ends.each_ref().map(|end| self.mechanism.tree.place_of(end, &|i| q[i]));
+                let places = self.places(&ends);
                 let length = record.number("length").unwrap_or_else(|| (places[1] - places[0]).norm());
                 if length <= 0.0 {
                     return Err(Mistake::new(record.place.clone(), "the points are one at the start")
@@ -62,23 +61,28 @@ impl Builder<'_> {
         (constraints.len() == records.len()).then_some(constraints)
     }
 
-    /// Refuses methods of fixed step for constraints, and reactions of what has none.
+    /// Refuses methods of fixed step for constraints.
     pub(super) fn keeps_constraints(&mut self, scene: &Record) {
         let adaptive = "an adaptive method, as \"dormand-prince-853\", which brings every step back to the constraints";
         if let Some(integrator) = scene.record("integrator").filter(|_| !scene.records("constraint").is_empty()) {
             let method = integrator.text("method").unwrap_or_default();
             if method.starts_with("gauss") || method.starts_with("composition") || integrator.has("step") {
                 let key = if integrator.has("step") { "step" } else { "method" };
-                self.wrong(Mistake::new(integrator.place_of(key), "a fixed step with constraints").valid(adaptive));
+                self.refuse(integrator.place_of(key), "a fixed step with constraints", adaptive);
             }
         }
+    }
+
+    /// Refuses reactions of what has none.
+    pub(crate) fn has_reactions(&mut self, scene: &Record) {
         if let Some(output) = scene.record("output")
             && output.flag("reactions") == Some(true)
             && !scene.has("mechanism")
         {
-            self.wrong(
-                Mistake::new(output.place_of("reactions"), "nothing holds bodies that are free")
-                    .valid("reactions = true in a [mechanism]"),
+            self.refuse(
+                output.place_of("reactions"),
+                "`reactions` of a scene without joints",
+                "reactions = true in a [mechanism]",
             );
         }
     }

@@ -1,5 +1,6 @@
 //! Forces on mechanisms from checked records.
 
+use nalgebra::Vector3;
 use piola_document::units::Dimension;
 use piola_document::{Mistake, Record, words};
 use piola_expression::Variable;
@@ -48,10 +49,20 @@ impl<'m> Surroundings<'m> {
                 mass: part.number("mass"),
             });
         }
+        let expressions = scene.records("force").iter().any(|force| force.has("drive") || force.has("energy"))
+            || scene.records("constraint").iter().any(|constraint| constraint.has("motion"));
         let mut names = ExpressionNames::new(true);
         for (i, name) in mechanism.coordinates.iter().enumerate() {
             let dimension = if mechanism.angular[i] { Dimension::ANGLE } else { Dimension::LENGTH };
-            names.add(name, NameMeaning::Variable(Variable::Coordinate(i)), dimension);
+            let free = names.add(name, NameMeaning::Variable(Variable::Coordinate(i)), dimension);
+            // A name that is taken twice by joints has a mistake already.
+            let taken = ExpressionNames::new(true).add(name, NameMeaning::Number(0.0), Dimension::NONE);
+            if let Some(joint) = number_of(name).filter(|_| !free && !taken && expressions) {
+                let what = format!("the name `{name}` has a meaning of its own in expressions");
+                builder.wrong(
+                    Mistake::new(joints[joint].place_of("name"), what).valid("a name unlike t, pi and any function"),
+                );
+            }
             names.add_rate(name, Variable::Conjugate(i), dimension.over(Dimension::TIME));
         }
         builder.parameters(scene, &mut names);
@@ -107,13 +118,40 @@ impl<'m> Surroundings<'m> {
         massive.map(|(point, mass)| Ok((self.anchored(record, point, shift)?, mass))).collect()
     }
 
+    /// The points on which a force acts: of its part, or of all parts.
+    fn points_on(&self, record: &Record) -> Result<Vec<Anchor>, Box<Mistake>> {
+        if !record.has("part") {
+            return Ok(self.parts(record)?.into_iter().map(|(anchor, _)| anchor).collect());
+        }
+        if record.text("part") == Some("ground") {
+            return Err(Mistake::new(record.place_of("part"), "no force moves the ground")
+                .valid("a joint, a particle or a rigid body")
+                .into());
+        }
+        Ok(vec![self.anchor(record, "part", "at")?])
+    }
+
+    /// The places of two ends at the start.
+    pub(super) fn places(&self, ends: &[Anchor; 2]) -> [Vector3<f64>; 2] {
+        ends.each_ref().map(|end| self.mechanism.tree.place_of(end, &|i| self.mechanism.position[i]))
+    }
+
     fn kind(&self, record: &Record) -> Result<Option<ForceKind>, Box<Mistake>> {
         let number = |key: &str| record.number(key);
         let built = |make: &dyn Fn() -> Option<ForceKind>| make();
         Ok(match record.text("type").unwrap_or_default() {
             "spring" => {
                 let ends = [self.anchor(record, "from", "from_at")?, self.anchor(record, "to", "to_at")?];
-                Self::apart(record, &ends)?;
+                self.apart(record, &ends)?;
+                let places = self.places(&ends);
+                let directed =
+                    ["length", "damping"].into_iter().any(|key| number(key).is_some_and(|value| 0.0 < value));
+                // Within rounding of the places.
+                if directed && (places[1] - places[0]).norm() <= 4.0 * f64::EPSILON * places[0].norm() {
+                    return Err(Mistake::new(record.place_of("to"), "both ends are at one place at the start")
+                        .valid("ends apart: without a direction a `length` or `damping` has no force")
+                        .into());
+                }
                 built(&|| {
                     Some(ForceKind::Spring {
                         ends: ends.clone(),
@@ -145,11 +183,7 @@ impl<'m> Surroundings<'m> {
                 })
             }
             "drag" => {
-                let points = if record.has("part") {
-                    vec![self.anchor(record, "part", "at")?]
-                } else {
-                    self.parts(record)?.into_iter().map(|(anchor, _)| anchor).collect()
-                };
+                let points = self.points_on(record)?;
                 built(&|| {
                     Some(ForceKind::Drag {
                         points: points.clone(),
@@ -164,11 +198,7 @@ impl<'m> Surroundings<'m> {
                 built(&|| Some(ForceKind::Uniform { points: points.clone(), field: record.vector("acceleration")? }))
             }
             "constant-force" => {
-                let point = if record.has("part") {
-                    vec![(self.anchor(record, "part", "at")?, 1.0)]
-                } else {
-                    self.parts(record)?.into_iter().map(|(anchor, _)| (anchor, 1.0)).collect()
-                };
+                let point: Vec<_> = self.points_on(record)?.into_iter().map(|anchor| (anchor, 1.0)).collect();
                 built(&|| Some(ForceKind::Uniform { points: point.clone(), field: record.vector("force")? }))
             }
             "central-field" => {
@@ -196,12 +226,13 @@ impl<'m> Surroundings<'m> {
         })
     }
 
-    /// Refuses a spring whose ends are one point of one frame.
-    pub(super) fn apart(record: &Record, ends: &[Anchor; 2]) -> Result<(), Box<Mistake>> {
-        if ends[0] != ends[1] {
+    /// Refuses two ends that the same coordinates move: their distance never changes.
+    pub(super) fn apart(&self, record: &Record, ends: &[Anchor; 2]) -> Result<(), Box<Mistake>> {
+        let [one, other] = ends.each_ref().map(|end| self.mechanism.tree.coordinates_of(end));
+        if one.ne(other) {
             return Ok(());
         }
-        Err(Mistake::new(record.place_of("to"), "both ends are the same point")
+        Err(Mistake::new(record.place_of("to"), "both ends are on one body: their distance never changes")
             .valid("two points of two frames")
             .into())
     }
@@ -212,9 +243,10 @@ impl Builder<'_> {
     pub(crate) fn parameters(&mut self, scene: &Record, names: &mut ExpressionNames) {
         for parameter in scene.parameters("parameters") {
             if !names.add(&parameter.name, NameMeaning::Number(parameter.value), parameter.dimension) {
-                self.wrong(
-                    Mistake::new(parameter.place.clone(), format!("the name `{}` is taken", parameter.name))
-                        .valid("a name unlike t, pi, any coordinate and any function"),
+                self.refuse(
+                    parameter.place.clone(),
+                    format!("the name `{}` is taken", parameter.name),
+                    "a name unlike t, pi, any coordinate and any function",
                 );
             }
         }
@@ -230,6 +262,10 @@ impl Builder<'_> {
         self.unique_names(&[records]);
         let mut forces = Vec::with_capacity(records.len());
         for record in records {
+            if record.text("name") == Some("prescribed motion") {
+                let what = "the name `prescribed motion` is that of the work of all drives";
+                self.refuse(record.place_of("name"), what, "another name");
+            }
             match surroundings.kind(record) {
                 Ok(Some(kind)) => {
                     forces.push(Force { name: record.text("name").unwrap_or_default().to_string(), kind });

@@ -13,11 +13,11 @@ impl Builder<'_> {
         let records = scene.records("body");
         self.unique_names(&[records]);
         if records.is_empty() {
-            self.wrong(
-                Mistake::new(table.place.clone(), "[gravity] without bodies")
-                    .valid("at least one [[body]] with name, gm or mass, position and velocity"),
+            return self.refused(
+                table.place.clone(),
+                "[gravity] without bodies",
+                "at least one [[body]] with name, gm or mass, position and velocity",
             );
-            return None;
         }
         let bodies: Vec<Option<MassPoint>> = records.iter().map(|record| self.mass_point(record)).collect();
         let softening = table.number("softening");
@@ -43,21 +43,26 @@ impl Builder<'_> {
             "mean_anomaly",
         ];
         for key in elements.into_iter().filter(|key| record.has(key)) {
-            self.wrong(
-                Mistake::new(record.place_of(key), format!("`{key}` in a scene of [gravity]"))
-                    .valid("position and velocity: orbital elements need [central]"),
+            self.refuse(
+                record.place_of(key),
+                format!("`{key}` in a scene of [gravity]"),
+                "position and velocity: orbital elements need [central]",
             );
         }
         if record.has("gm") == record.has("mass") {
             let what = if record.has("gm") { "both `gm` and `mass`" } else { "neither `gm` nor `mass`" };
             let place = if record.has("gm") { record.place_of("mass") } else { record.place.clone() };
-            self.wrong(Mistake::new(place, format!("the body {shown} has {what}")).valid("one of them"));
+            self.refuse(place, format!("the body {shown} has {what}"), "one of them");
         }
         for key in ["position", "velocity"].into_iter().filter(|key| !record.has(key)) {
-            self.wrong(Mistake::new(record.place.clone(), format!("the body {shown} lacks `{key}`")).valid(format!(
-                "{key} = a list of 3 numbers, or a text such as \"[1, 0, 0] {}\"",
-                if key == "position" { "au" } else { "km/s" }
-            )));
+            self.refuse(
+                record.place.clone(),
+                format!("the body {shown} lacks `{key}`"),
+                format!(
+                    "{key} = a list of 3 numbers, or a text such as \"[1, 0, 0] {}\"",
+                    if key == "position" { "au" } else { "km/s" }
+                ),
+            );
         }
         Some(MassPoint {
             name: record.text("name")?.to_string(),
@@ -117,12 +122,10 @@ impl Builder<'_> {
             let speed = body.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
             // Squares overflow: infinity is too fast, too.
             if MOST_OF_LIGHT * SPEED_OF_LIGHT <= speed {
-                self.wrong(
-                    Mistake::new(
-                        record.place_of("velocity"),
-                        format!("the speed {} m/s with a post-Newtonian term of first order", words::number(speed)),
-                    )
-                    .valid("less than a tenth of the speed of light, 299792458 m/s"),
+                self.refuse(
+                    record.place_of("velocity"),
+                    format!("the speed {} m/s with a post-Newtonian term of first order", words::number(speed)),
+                    "less than a tenth of the speed of light, 299792458 m/s",
                 );
             }
         }

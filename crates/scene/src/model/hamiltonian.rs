@@ -1,12 +1,12 @@
 //! Hamiltonians and questions from checked records.
 
+use piola_document::Record;
 use piola_document::units::Dimension;
-use piola_document::{Mistake, Record};
 use piola_expression::{Expression, Variable};
 use piola_simulation::phase::{PhaseExpression, PhaseQuestions, PhaseSystem};
 use piola_simulation::questions::MechanismQuestions;
 
-use super::Builder;
+use super::{Builder, TimeSpan};
 use piola_expression::text::{self, ExpressionNames, NameMeaning};
 
 /// Relative tolerance of sections and exponents when none is asked for.
@@ -16,9 +16,10 @@ impl Builder<'_> {
     pub(super) fn hamiltonian(&mut self, scene: &Record, table: &Record) -> Option<PhaseSystem> {
         let records = scene.records("coordinate");
         if records.is_empty() && !scene.has("coordinate") {
-            self.wrong(
-                Mistake::new(table.place.clone(), "[hamiltonian] without coordinates")
-                    .valid("at least one [[coordinate]]"),
+            return self.refused(
+                table.place.clone(),
+                "[hamiltonian] without coordinates",
+                "at least one [[coordinate]]",
             );
         }
         let mut names = ExpressionNames::new(false);
@@ -30,11 +31,11 @@ impl Builder<'_> {
                 [("name", &name, Variable::Coordinate(i)), ("momentum", &momentum, Variable::Conjugate(i))]
             {
                 if !names.add(name, NameMeaning::Variable(variable), Dimension::NONE) {
-                    self.wrong(
-                        Mistake::new(record.place_of(key), format!("the name `{name}` is taken"))
-                            .valid("a name unlike t, pi, any coordinate, momentum and function"),
+                    return self.refused(
+                        record.place_of(key),
+                        format!("the name `{name}` is taken"),
+                        "a name unlike t, pi, any coordinate, momentum and function",
                     );
-                    return None;
                 }
             }
             coordinates.push(name);
@@ -42,11 +43,11 @@ impl Builder<'_> {
         }
         let united = scene.parameters("parameters").iter().find(|parameter| parameter.dimension != Dimension::NONE);
         if let Some(parameter) = united {
-            self.wrong(
-                Mistake::new(parameter.place.clone(), format!("`{}` has a unit", parameter.name))
-                    .valid("a pure number: nothing in a [hamiltonian] has a unit"),
+            return self.refused(
+                parameter.place.clone(),
+                format!("`{}` has a unit", parameter.name),
+                "a pure number: nothing in a [hamiltonian] has a unit",
             );
-            return None;
         }
         if scene.has("parameters") && !scene.fields.contains_key("parameters") {
             return None;
@@ -57,14 +58,15 @@ impl Builder<'_> {
         let numbers = |key: &str| records.iter().map(|record| record.number(key)).collect::<Option<Vec<f64>>>();
         let (start, momentum) = (numbers("start")?, numbers("momentum_at_start")?);
         if let Some(reference) = scene.record("reference") {
-            self.wrong(
-                Mistake::new(reference.place.clone(), "[reference] in a scene of [hamiltonian]")
-                    .valid("nothing: a reference has positions of bodies"),
+            self.refuse(
+                reference.place.clone(),
+                "[reference] in a scene of [hamiltonian]",
+                "nothing: a reference has positions of bodies",
             );
         }
         let built = PhaseSystem::new(energy?, (coordinates, momenta), start, momentum);
         let refused = |error| {
-            self.wrong(Mistake::new(table.place.clone(), format!("{error}")).valid("finite numbers"));
+            self.refuse(table.place.clone(), format!("{error}"), "finite numbers");
         };
         let mut system = built.map_err(refused).ok()?;
         system.questions = questions?;
@@ -100,18 +102,21 @@ impl Builder<'_> {
         };
         let small = [("equilibrium", questions.equilibrium), ("modes", questions.modes)];
         if let Some((key, _)) = small.into_iter().find(|(_, asked)| *asked && scene.has("constraint")) {
-            self.wrong(
-                Mistake::new(asked.place_of(key), format!("`{key}` under a [[constraint]]"))
-                    .valid("a mechanism of joints alone: small motions under multipliers are not there yet"),
+            return self.refused(
+                asked.place_of(key),
+                format!("`{key}` under a [[constraint]]"),
+                "a mechanism of joints alone: small motions under multipliers are not there yet",
             );
-            return None;
         }
         Some(questions)
     }
 
     /// Refuses questions to what has no answer to them.
-    pub(super) fn answerable(&mut self, scene: &Record) {
+    pub(super) fn answerable(&mut self, scene: &Record, time: Option<TimeSpan>) {
         let Some(asked) = scene.record("questions") else { return };
+        if asked.flag("exponent") == Some(true) && time.is_some_and(|time| time.end < time.start) {
+            self.refuse(asked.place_of("exponent"), "`exponent` of a run backwards in time", "an end after the start");
+        }
         let of = [
             ("section", "hamiltonian"),
             ("crossings", "hamiltonian"),
@@ -121,9 +126,10 @@ impl Builder<'_> {
             ("energies", "mechanism"),
         ];
         for (key, kind) in of.into_iter().filter(|(key, kind)| asked.has(key) && !scene.has(kind)) {
-            self.wrong(
-                Mistake::new(asked.place_of(key), format!("`{key}` is no question to this scene"))
-                    .valid(format!("a scene of [{kind}]")),
+            self.refuse(
+                asked.place_of(key),
+                format!("`{key}` is no question to this scene"),
+                format!("a scene of [{kind}]"),
             );
         }
     }

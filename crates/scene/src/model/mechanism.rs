@@ -13,11 +13,15 @@ impl Builder<'_> {
     pub(super) fn mechanism(&mut self, scene: &Record, table: &Record) -> Option<Mechanism> {
         let lists = [scene.records("joint"), scene.records("particle"), scene.records("rigid_body")];
         self.unique_names(&lists);
+        for record in lists.into_iter().flatten().filter(|record| record.text("name") == Some("ground")) {
+            self.refuse(record.place_of("name"), "the name `ground` is taken", "another name");
+        }
         let [joints, particles, bodies] = lists;
         if particles.is_empty() && bodies.is_empty() && !scene.has("particle") && !scene.has("rigid_body") {
-            self.wrong(
-                Mistake::new(table.place.clone(), "[mechanism] without parts")
-                    .valid("at least one [[particle]] or [[rigid_body]] on a [[joint]]"),
+            self.refuse(
+                table.place.clone(),
+                "[mechanism] without parts",
+                "at least one [[particle]] or [[rigid_body]] on a [[joint]]",
             );
         }
         let names: Vec<&str> = joints.iter().map(|joint| joint.text("name").unwrap_or("")).collect();
@@ -30,9 +34,7 @@ impl Builder<'_> {
         }
         let parts: Vec<Part> = parts.into_iter().collect::<Option<_>>()?;
         let mechanism = Mechanism::new(drafts, parts, table.vector("gravity")?).map_err(|error| {
-            self.wrong(
-                Mistake::new(table.place.clone(), error.to_string()).valid("joints and parts of finite numbers"),
-            );
+            self.refuse(table.place.clone(), error.to_string(), "joints and parts of finite numbers");
         });
         let mechanism = mechanism.ok()?;
         if !self.independent(scene, joints, &mechanism) {
@@ -53,10 +55,6 @@ impl Builder<'_> {
 
     fn joint(&mut self, record: &Record, names: &[&str]) -> Option<Joint> {
         let name = record.text("name")?.to_string();
-        if name == "ground" {
-            self.wrong(Mistake::new(record.place_of("name"), "the name `ground` is taken").valid("another name"));
-            return None;
-        }
         let parent =
             if record.text("parent")? == "ground" { None } else { Some(self.find(record, "parent", "joint", names)?) };
         let kind = record.text("type")?.to_string();
@@ -106,9 +104,10 @@ impl Builder<'_> {
             let found = numbers.as_ref().map_or(count, Vec::len);
             if found != count {
                 valid = false;
-                self.wrong(
-                    Mistake::new(record.place_of(key), format!("`{key}` is a list of {found}"))
-                        .valid(format!("a list of {count} for this type of joint")),
+                self.refuse(
+                    record.place_of(key),
+                    format!("`{key}` is a list of {found}"),
+                    format!("a list of {count} for this type of joint"),
                 );
             }
         }
@@ -120,10 +119,7 @@ impl Builder<'_> {
         let axis = record.vector(key)?;
         let largest = axis.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
         if largest <= 0.0 {
-            self.wrong(
-                Mistake::new(record.place_of(key), format!("`{key}` is zero")).valid("a direction, as [0, 1, 0]"),
-            );
-            return None;
+            return self.refused(record.place_of(key), format!("`{key}` is zero"), "a direction, as [0, 1, 0]");
         }
         // Divided by the largest component first: squares neither overflow nor vanish.
         let scaled = axis.map(|x| x / largest);
@@ -161,9 +157,7 @@ impl Builder<'_> {
                     KinematicsError::InertiaNotSymmetric { .. } => "a symmetric matrix, by rows",
                     _ => "positive principal moments; a thin rod is placed as particles",
                 };
-                self.wrong(
-                    Mistake::new(record.place_of("inertia"), format!("no body has this inertia: {error}")).valid(valid),
-                );
+                self.refuse(record.place_of("inertia"), format!("no body has this inertia: {error}"), valid);
             })
             .ok()
     }
@@ -180,12 +174,10 @@ impl Builder<'_> {
                 if let Some(first) = path.iter().position(|seen| *seen == joint) {
                     let mut cycle: Vec<&str> = path[first..].iter().map(|j: &usize| names[*j]).collect();
                     cycle.push(names[joint]);
-                    self.wrong(
-                        Mistake::new(
-                            records[joint].place_of("parent"),
-                            format!("the joints form a cycle: {}", cycle.join(" on ")),
-                        )
-                        .valid("parents that lead to the ground"),
+                    self.refuse(
+                        records[joint].place_of("parent"),
+                        format!("the joints form a cycle: {}", cycle.join(" on ")),
+                        "parents that lead to the ground",
                     );
                     valid = false;
                     for &j in &path {
@@ -207,12 +199,10 @@ impl Builder<'_> {
                 depth[joint] = drafts[joint].parent.map_or(0, |parent| depth[parent]) + 1;
                 if depth[joint] == DEEPEST + 1 {
                     valid = false;
-                    self.wrong(
-                        Mistake::new(
-                            records[joint].place_of("parent"),
-                            format!("more than {DEEPEST} joints between `{}` and the ground", names[joint]),
-                        )
-                        .valid(format!("at most {DEEPEST}")),
+                    self.refuse(
+                        records[joint].place_of("parent"),
+                        format!("more than {DEEPEST} joints between `{}` and the ground", names[joint]),
+                        format!("at most {DEEPEST}"),
                     );
                 }
             }
@@ -241,9 +231,7 @@ impl Builder<'_> {
                 ),
             };
             let last = group.last().copied().unwrap_or_default();
-            self.wrong(Mistake::new(owner(last).place.clone(), found).valid(
-                "as many coordinates as there are motions: a joint less, a mass at the end, or angles away from where the Eulerian angles are singular",
-            ));
+            self.refuse(owner(last).place.clone(), found, "as many coordinates as there are motions: a joint less, a mass at the end, or angles away from where the Eulerian angles are singular");
         }
         false
     }

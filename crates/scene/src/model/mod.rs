@@ -23,7 +23,7 @@ pub use reference::{ClosedForm, Reference, ReferenceKind, ReferenceTable};
 
 use crate::SceneError;
 use crate::schema::{Kind, SCENE, SCENE_KINDS, SceneKind};
-use piola_document::{Document, Mistake, Record, words};
+use piola_document::{Document, Mistake, Place, Record, words};
 
 /// A scene: a system, a span of time, how to integrate it, what to write, what to compare with.
 #[derive(Debug, Clone)]
@@ -110,6 +110,12 @@ impl Scene {
     pub fn names(&self) -> Vec<&str> {
         self.system.names()
     }
+
+    /// Whether a Poincaré section is asked for, which may have no crossings.
+    #[must_use]
+    pub fn asks_for_section(&self) -> bool {
+        matches!(&self.system, System::Phase(system) if system.questions.section.is_some())
+    }
 }
 
 /// Builds the model and collects mistakes.
@@ -154,16 +160,24 @@ impl<'d> Builder<'d> {
         for table in belongings.into_iter().filter(|table| record.has(table) && !kind.lists.contains(table)) {
             let headers: Vec<String> = kind.lists.iter().map(|name| header(name)).collect();
             let valid = if headers.is_empty() { "no such table".to_string() } else { headers.join(", ") };
-            self.wrong(
-                Mistake::new(record.place_of(table), format!("{} in a scene of [{}]", header(table), kind.name))
-                    .valid(valid),
-            );
+            self.refuse(record.place_of(table), format!("{} in a scene of [{}]", header(table), kind.name), valid);
         }
         Some(kind)
     }
 
     pub(crate) fn wrong(&mut self, mistake: Mistake) {
         self.mistakes.push(mistake);
+    }
+
+    /// Adds a mistake: what was found at a place, and what would be valid.
+    pub(crate) fn refuse(&mut self, place: Place, found: impl Into<String>, valid: impl Into<String>) {
+        self.wrong(Mistake::new(place, found).valid(valid));
+    }
+
+    /// Adds a mistake after which there is nothing to return.
+    pub(crate) fn refused<T>(&mut self, place: Place, found: impl Into<String>, valid: impl Into<String>) -> Option<T> {
+        self.refuse(place, found, valid);
+        None
     }
 
     /// The scene; parts that cannot be built have mistakes of their own.
@@ -178,8 +192,9 @@ impl<'d> Builder<'d> {
         let integrator = self.integrator(record);
         let output = output(record, &name);
         self.keeps_constraints(record);
-        self.answerable(record);
-        self.recordable(record, &output);
+        self.has_reactions(record);
+        self.answerable(record, time);
+        self.recordable(record, system.as_ref(), &output);
         let reference = self.reference(record, system.as_ref(), time);
         Some(Scene {
             name,
@@ -202,14 +217,11 @@ impl<'d> Builder<'d> {
     fn system(&mut self, record: &Record) -> Option<System> {
         let kind = self.kind(record)?;
         if kind.study {
-            self.wrong(
-                Mistake::new(
-                    record.place_of(kind.name),
-                    format!("a scene of [{}] is a study: nothing moves in it", kind.name),
-                )
-                .valid("[gravity], [mechanism], [central] or [hamiltonian]"),
+            return self.refused(
+                record.place_of(kind.name),
+                format!("a scene of [{}] is a study: nothing moves in it", kind.name),
+                "[gravity], [mechanism], [central] or [hamiltonian]",
             );
-            return None;
         }
         let table = record.record(kind.name)?;
         match kind.name {
@@ -224,25 +236,18 @@ impl<'d> Builder<'d> {
         let Some(table) = record.record("time") else {
             let syntax = self.mistakes.iter().any(|mistake| mistake.syntax);
             if !record.has("time") && !syntax {
-                self.wrong(
-                    Mistake::new(record.place.clone(), "the scene lacks [time]")
-                        .valid("time = a table, [time]: the span of time"),
-                );
+                self.refuse(record.place.clone(), "the scene lacks [time]", "time = a table, [time]: the span of time");
             }
             return None;
         };
         let start = table.number("start")?;
         if table.has("revolutions") && !record.has("central") {
-            self.wrong(
-                Mistake::new(table.place_of("revolutions"), "`revolutions` without [central]").valid("end = a time"),
-            );
-            return None;
+            return self.refused(table.place_of("revolutions"), "`revolutions` without [central]", "end = a time");
         }
         if table.has("end") == table.has("revolutions") {
             let what = if table.has("end") { "[time] has both `end` and `revolutions`" } else { "[time] has no `end`" };
             let place = if table.has("end") { table.place_of("revolutions") } else { table.place.clone() };
-            self.wrong(Mistake::new(place, what).valid("end = a time, as end = \"10 d\""));
-            return None;
+            return self.refused(place, what, "end = a time, as end = \"10 d\"");
         }
         if let (Some(revolutions), Some(period)) = (table.number("revolutions"), period) {
             return Some(TimeSpan { start, end: start + revolutions * period });
@@ -251,11 +256,11 @@ impl<'d> Builder<'d> {
         if start < end || end < start {
             return Some(TimeSpan { start, end });
         }
-        self.wrong(
-            Mistake::new(table.place_of("end"), format!("the end, {} s, is the start", words::number(end)))
-                .valid("a time after the start, or before it for a run backwards in time"),
-        );
-        None
+        self.refused(
+            table.place_of("end"),
+            format!("the end, {} s, is the start", words::number(end)),
+            "a time after the start, or before it for a run backwards in time",
+        )
     }
 
     pub(crate) fn integrator(&mut self, record: &Record) -> IntegratorRequest {
@@ -271,9 +276,10 @@ impl<'d> Builder<'d> {
         if let (Some(table), Some(tolerance)) = (table, request.tolerance)
             && tolerance < LEAST_TOLERANCE
         {
-            self.wrong(
-                Mistake::new(table.place_of("tolerance"), format!("the tolerance {tolerance:e} is below rounding"))
-                    .valid(format!("from {LEAST_TOLERANCE:.1e} to less than 1")),
+            self.refuse(
+                table.place_of("tolerance"),
+                format!("the tolerance {tolerance:e} is below rounding"),
+                format!("from {LEAST_TOLERANCE:.1e} to less than 1"),
             );
         }
         if let Some(table) = table {
@@ -283,16 +289,14 @@ impl<'d> Builder<'d> {
             for (key, wrong) in [("step", adaptive), ("tolerance", fixed)] {
                 if wrong && table.has(key) {
                     let valid = if adaptive { "tolerance: its step adapts" } else { "step: its step is fixed" };
-                    self.wrong(
-                        Mistake::new(table.place_of(key), format!("`{key}` with the method {}", request.method))
-                            .valid(valid),
-                    );
+                    self.refuse(table.place_of(key), format!("`{key}` with the method {}", request.method), valid);
                 }
             }
             if request.method == "auto" && table.has("step") && table.has("tolerance") {
-                self.wrong(
-                    Mistake::new(table.place_of("tolerance"), "both `step` and `tolerance`")
-                        .valid("step for a fixed step, tolerance for an adaptive one"),
+                self.refuse(
+                    table.place_of("tolerance"),
+                    "both `step` and `tolerance`",
+                    "step for a fixed step, tolerance for an adaptive one",
                 );
             }
         }
@@ -300,17 +304,26 @@ impl<'d> Builder<'d> {
     }
 
     /// Checks that what is recorded fits into memory.
-    fn recordable(&mut self, record: &Record, output: &OutputRequest) {
-        /// Positions over all instants and bodies: about a gigabyte with its tables.
-        const MOST: usize = 5_000_000;
-        let bodies: usize =
-            ["body", "particle", "rigid_body", "coordinate"].iter().map(|list| record.records(list).len()).sum();
-        let samples = output.samples as usize;
-        if MOST / bodies.max(1) < samples {
+    fn recordable(&mut self, record: &Record, system: Option<&System>, output: &OutputRequest) {
+        /// Numbers over all instants: about a gigabyte with their tables.
+        const MOST: usize = 30_000_000;
+        let columns = match system {
+            Some(System::Mechanism(system)) => {
+                let parts = system.parts.len();
+                let energies = if system.questions.energies { 2 * parts + system.forces.len() } else { 0 };
+                let held = if system.reactions { 6 * parts + system.condition_names().len() } else { 0 };
+                3 * parts + 2 * system.coordinates.len() + system.work_names().len() + energies + held
+            }
+            Some(System::Phase(system)) => 2 * system.freedom() + 1,
+            _ => 6 * record.records("body").len(),
+        };
+        let (samples, most) = (output.samples as usize, MOST / columns.max(1));
+        if most < samples {
             let place = record.record("output").map_or(record.place.clone(), |table| table.place_of("samples"));
-            self.wrong(
-                Mistake::new(place, format!("{samples} samples of {bodies} bodies are more than {MOST} positions"))
-                    .valid(format!("samples = at most {}", MOST / bodies.max(1))),
+            self.refuse(
+                place,
+                format!("{samples} samples of {columns} numbers are more than {MOST}"),
+                format!("samples = at most {most}"),
             );
         }
     }
@@ -335,9 +348,10 @@ impl<'d> Builder<'d> {
         let name = record.text(key)?;
         let found = names.iter().position(|known| *known == name);
         if found.is_none() {
-            self.wrong(
-                Mistake::new(record.place_of(key), format!("no {what} is named `{name}`"))
-                    .valid(words::one_of(name, names.iter().copied())),
+            self.refuse(
+                record.place_of(key),
+                format!("no {what} is named `{name}`"),
+                words::one_of(name, names.iter().copied()),
             );
         }
         found

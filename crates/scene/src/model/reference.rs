@@ -5,7 +5,7 @@ use std::io::Read as _;
 use std::path::PathBuf;
 
 use super::{Builder, System, TimeSpan};
-use piola_document::{Mistake, Record, words};
+use piola_document::{Record, words};
 use piola_gravitation::kepler::KeplerMotion;
 
 /// A reference with the way of measuring errors against it.
@@ -67,8 +67,7 @@ impl Builder<'_> {
             let what =
                 if table.has("file") { "both `file` and `closed_form`" } else { "neither `file` nor `closed_form`" };
             let place = if table.has("file") { table.place_of("closed_form") } else { table.place.clone() };
-            self.wrong(Mistake::new(place, format!("[reference] has {what}")).valid("one of them"));
-            return None;
+            return self.refused(place, format!("[reference] has {what}"), "one of them");
         }
         // A missing file is found even when the system has mistakes.
         let file = if table.has("file") { Some(self.reference_text(table)?) } else { None };
@@ -95,19 +94,20 @@ impl Builder<'_> {
         table.text("closed_form")?;
         let place = || table.place_of("closed_form");
         let System::Central(central) = system else {
-            self.wrong(
-                Mistake::new(place(), "the closed form `kepler` in a scene that is not of [central]")
-                    .valid("[central], or a reference file"),
+            return self.refused(
+                place(),
+                "the closed form `kepler` in a scene that is not of [central]",
+                "[central], or a reference file",
             );
-            return None;
         };
         let mut motions = Vec::new();
         for body in &central.bodies {
             match KeplerMotion::new(central.gm, body.position, body.velocity) {
                 Ok(motion) => motions.push(motion),
-                Err(error) => self.wrong(
-                    Mistake::new(place(), format!("the closed form `kepler` with the body {}: {error}", body.name))
-                        .valid("bodies on ellipses"),
+                Err(error) => self.refuse(
+                    place(),
+                    format!("the closed form `kepler` with the body {}: {error}", body.name),
+                    "bodies on ellipses",
                 ),
             }
         }
@@ -123,14 +123,11 @@ impl Builder<'_> {
             Ok(_) => return Some((path, text)),
             Err(error) => error.to_string(),
         };
-        self.wrong(
-            Mistake::new(
-                table.place_of("file"),
-                format!("the reference file `{}` cannot be read: {cause}", path.display()),
-            )
-            .valid("the path of a readable file, relative to the scene's folder"),
-        );
-        None
+        self.refused(
+            table.place_of("file"),
+            format!("the reference file `{}` cannot be read: {cause}", path.display()),
+            "the path of a readable file, relative to the scene's folder",
+        )
     }
 
     fn reference_table(
@@ -143,7 +140,7 @@ impl Builder<'_> {
     ) -> Option<ReferenceTable> {
         let rows = rows(text, names).map_err(|(line, found, valid)| {
             let shown = format!("line {line} of `{}`: {found}", path.display());
-            self.wrong(Mistake::new(table.place_of("file"), shown).valid(valid));
+            self.refuse(table.place_of("file"), shown, valid);
         });
         let rows: Vec<(f64, usize, [f64; 3])> = rows.ok()?;
         let mut instants: Vec<f64> = rows.iter().map(|row| row.0).collect();
@@ -151,19 +148,16 @@ impl Builder<'_> {
         instants.dedup_by(|a, b| time.order(*a, *b).is_eq());
         instants.retain(|t| time.holds(*t));
         if instants.is_empty() {
-            self.wrong(
-                Mistake::new(
-                    table.place_of("file"),
-                    format!(
-                        "no instant of `{}` is between {} s and {} s",
-                        path.display(),
-                        words::number(time.start),
-                        words::number(time.end)
-                    ),
-                )
-                .valid("a table that overlaps the span of time"),
+            return self.refused(
+                table.place_of("file"),
+                format!(
+                    "no instant of `{}` is between {} s and {} s",
+                    path.display(),
+                    words::number(time.start),
+                    words::number(time.end)
+                ),
+                "a table that overlaps the span of time",
             );
-            return None;
         }
         let mut positions = vec![Vec::new(); instants.len()];
         for (t, body, position) in rows {

@@ -47,6 +47,9 @@ pub struct Summary {
     /// Works of the forces of a mechanism at the time reached, J, by name.
     #[serde(rename = "works_J", skip_serializing_if = "Map::is_empty")]
     pub works: Map<String, Value>,
+    /// Singular positions of the constraints that a mechanism went through.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub singular_positions: Vec<Value>,
     /// Answers to the questions of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub answers: Option<Value>,
@@ -82,7 +85,8 @@ impl Summary {
             end_s: plan.end,
             invariants: invariants(run),
             works: works(run),
-            answers: run.answers.as_ref().map(|found| answers(run, found)),
+            singular_positions: singular_positions(run),
+            answers: run.answers.as_ref().map(|found| answers(scene, run, found)),
             reference: reference(run),
             skipped: plan.skipped.clone(),
         }
@@ -99,12 +103,18 @@ impl Summary {
 }
 
 /// The answers without what their tables hold.
-fn answers(run: &Run, found: &Answers) -> Value {
+fn answers(scene: &Scene, run: &Run, found: &Answers) -> Value {
     match found {
-        Answers::Phase(answers) => json!({
-            "crossings": answers.crossings.len(),
-            "largest_exponent_1_per_s": answers.exponent,
-        }),
+        Answers::Phase(answers) => {
+            let mut told = Map::new();
+            if scene.asks_for_section() {
+                told.insert("crossings".into(), json!(answers.crossings.len()));
+            }
+            if let Some(exponent) = answers.exponent {
+                told.insert("largest_exponent_1_per_s".into(), json!(exponent));
+            }
+            Value::Object(told)
+        }
         Answers::Mechanism(Err(why)) => json!({ "equilibrium": null, "failure": why }),
         Answers::Mechanism(Ok(answers)) => {
             let names = run.history.coordinate_names.iter().cloned();
@@ -129,6 +139,11 @@ pub fn stability(stability: Stability) -> &'static str {
         Stability::Unstable => "unstable",
         _ => "marginal",
     }
+}
+
+fn singular_positions(run: &Run) -> Vec<Value> {
+    let told = |(t, name): &(f64, String)| json!({ "time_s": t, "constraint": name });
+    run.history.singular_positions.iter().map(told).collect()
 }
 
 fn works(run: &Run) -> Map<String, Value> {

@@ -94,7 +94,7 @@ fn turns(scene: &Scene) -> Option<f64> {
     let turn = match &scene.system {
         System::Gravitation(system) => fastest_turn(system),
         System::Central(system) => shortest_period(system),
-        System::Phase(system) => system.turn(scene.time.start),
+        System::Phase(system) => system.fastest_turn(scene.time),
         System::Mechanism(_) => None,
     };
     turn.map(|turn| scene.time.length() / turn)
@@ -170,9 +170,15 @@ fn automatic(scene: &Scene) -> (Method, String) {
 fn phase(scene: &Scene, system: &PhaseSystem) -> (Method, String) {
     let request = &scene.integrator;
     let separable = system.hamiltonian.0.is_separable();
-    if request.tolerance.is_some() || (request.step.is_none() && !separable) {
-        let why = if separable {
+    // One step fits the whole motion where the turn at the start tells of it.
+    let at_start = system.turn(scene.time.start).unwrap_or(f64::INFINITY);
+    let varies = |fastest: f64| 2.0 * fastest < at_start;
+    let uneven = request.step.is_none() && separable && system.fastest_turn(scene.time).is_some_and(varies);
+    if request.tolerance.is_some() || uneven || (request.step.is_none() && !separable) {
+        let why = if request.tolerance.is_some() {
             "integrator.tolerance asks for an adaptive step"
+        } else if uneven {
+            "turns along a trial of the motion are less than half as long as at the start; the step adapts"
         } else {
             "H is no sum T(p) + V(q), which explicit symplectic methods need; the step adapts"
         };
@@ -200,7 +206,7 @@ fn step(scene: &Scene, order: Order) -> (f64, String) {
         Some(turn) if turn.is_finite() && 0.0 < turn => (
             (turn / per_turn).min(span),
             if matches!(scene.system, System::Phase(_)) {
-                format!("the step is 1/{per_turn} of the fastest small turn at the start, {turn:.4} s")
+                format!("the step is 1/{per_turn} of the fastest small turn along a trial of the motion, {turn:.4} s")
             } else {
                 format!("the step is 1/{per_turn} of the fastest turn, {:.4} d", turn / 86_400.0)
             },
@@ -209,12 +215,12 @@ fn step(scene: &Scene, order: Order) -> (f64, String) {
     }
 }
 
-/// The time of the fastest turn at the start, s.
+/// The time of the fastest turn at the start, under a Hamiltonian along a trial, s.
 fn turn(scene: &Scene) -> Option<f64> {
     match &scene.system {
         System::Gravitation(system) => fastest_turn(system),
         System::Central(system) => turn_at_pericentre(system),
-        System::Phase(system) => system.turn(scene.time.start),
+        System::Phase(system) => system.fastest_turn(scene.time),
         System::Mechanism(_) => None,
     }
 }

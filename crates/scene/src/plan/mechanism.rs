@@ -9,8 +9,7 @@ use crate::model::Mechanism;
 
 /// The number of works that are integrated with the motion.
 pub(super) fn works(system: &Mechanism) -> usize {
-    let driven = |constraint: &Constraint| matches!(constraint.kind, ConstraintKind::Prescribed { .. });
-    system.forces.iter().filter(|force| force.kind.works()).count() + usize::from(system.constraints.iter().any(driven))
+    system.work_names().len()
 }
 
 /// The tables of works and reactions.

@@ -111,6 +111,8 @@ const TIES: &[&str] = &["distance", "loop"];
 table! {
     /// A constraint on a `[mechanism]` besides its joints. The motion starts at the nearest state that satisfies all constraints.
     /// Constraints that depend on others, as the third direction of a plane loop, do no harm.
+    /// Their forces in `constraints.csv` are then not unique: the least are written. A singular position that the motion goes
+    /// through, as a parallelogram on one line, stands in `summary.json`; such a run needs `integrator.tolerance = 1e-10`.
     pub(super) static CONSTRAINT = "constraint" {
         /// Name, unlike any other constraint.
         name: Name, Required;

@@ -20,7 +20,7 @@ table! {
 table! {
     /// A coordinate of a `[hamiltonian]` with its momentum.
     pub(super) static COORDINATE = "coordinate" {
-        /// Name of the coordinate in expressions: letters, digits and `_`.
+        /// Name of the coordinate in expressions: letters, digits and `_`; with spaces or hyphens between backquotes.
         name: Name, Required;
         /// Name of its momentum; `p_` and the name of the coordinate when absent.
         momentum: Name, Optional;
@@ -34,12 +34,12 @@ table! {
 table! {
     /// What is asked besides the motion. The answers stand in `summary.json` and in tables of their own.
     pub(super) static QUESTIONS = "questions" {
-        /// Of a `[hamiltonian]`: the surface s = 0 of a Poincaré section, an expression of coordinates and momenta. Recorded is
+        /// Of a `[hamiltonian]`: the surface s = 0 of a Poincaré section, an expression of coordinates, momenta and `t`. Recorded is
         /// where the motion crosses it from s < 0 to s > 0.
         section: Text, Optional;
         /// The most crossings that are sought, until the end of the time.
         crossings: Kind::Count { least: 1, most: 1_000_000 }, Default("1000");
-        /// Of a `[hamiltonian]`: the largest Lyapunov exponent, 1/s, estimated over the time.
+        /// Of a `[hamiltonian]`: the largest Lyapunov exponent, 1/s, estimated over the time, which ends after its start.
         exponent: Flag, Default("false");
         /// Of a `[mechanism]`: the equilibrium that is found from the coordinates at the start, and whether it is stable.
         equilibrium: Flag, Default("false");

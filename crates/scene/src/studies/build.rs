@@ -3,7 +3,6 @@
 use super::{Study, Subject};
 use crate::model::{self, Builder};
 use crate::schema::{SCENE_KINDS, SceneKind};
-use piola_document::Mistake;
 use piola_document::Record;
 
 /// Tables that only scenes with a motion have.
@@ -29,9 +28,7 @@ impl Builder<'_> {
             } else {
                 "nothing: this is a study, without a motion in time"
             };
-            self.wrong(
-                Mistake::new(record.place_of(key), format!("[{key}] in a scene of [{}]", kind.name)).valid(valid),
-            );
+            self.refuse(record.place_of(key), format!("[{key}] in a scene of [{}]", kind.name), valid);
         }
         if let Some(output) = record.record("output").filter(|output| output.has("samples") && !is_robot) {
             let valid = if is_box {
@@ -39,11 +36,9 @@ impl Builder<'_> {
             } else {
                 "nothing: there are no instants to record"
             };
-            self.wrong(
-                Mistake::new(output.place_of("samples"), format!("`samples` in a scene of [{}]", kind.name))
-                    .valid(valid),
-            );
+            self.refuse(output.place_of("samples"), format!("`samples` in a scene of [{}]", kind.name), valid);
         }
+        self.has_reactions(record);
         let name = record.text("name").map_or_else(|| self.file_stem(), str::to_string);
         let output = model::output(record, &name);
         let table = record.record(kind.name)?;
@@ -85,13 +80,10 @@ impl Builder<'_> {
     /// Says that this program has no studies of the kind `name`.
     #[cfg(not(all(feature = "solutions", feature = "spectral", feature = "robots")))]
     fn lacks_feature(&mut self, scene: &Record, name: &str, feature: &str) -> Option<Subject> {
-        self.wrong(
-            Mistake::new(
-                scene.place_of(name),
-                format!("a scene of [{name}] needs the feature `{feature}`, which this program was built without"),
-            )
-            .valid(format!("a program built with it: `cargo build --release --features {feature}`")),
-        );
-        None
+        self.refused(
+            scene.place_of(name),
+            format!("a scene of [{name}] needs the feature `{feature}`, which this program was built without"),
+            format!("a program built with it: `cargo build --release --features {feature}`"),
+        )
     }
 }

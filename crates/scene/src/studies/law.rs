@@ -6,7 +6,6 @@ use piola_solids::{AnyIsochoric, SolidsError};
 
 use super::panel::quantity;
 use crate::model::Builder;
-use piola_document::Mistake;
 use piola_document::Record;
 
 /// The law of an incompressible isotropic solid: the one type for which the solutions are compiled.
@@ -81,9 +80,10 @@ impl Builder<'_> {
     pub(super) fn law(&mut self, scene: &Record, name: &str) -> Option<Law> {
         let Some(table) = scene.record("law") else {
             if !scene.has("law") {
-                self.wrong(
-                    Mistake::new(scene.place_of(name), format!("[{name}] without a law"))
-                        .valid("a table [law], as type = \"neo-hookean\" and shear_modulus = \"0.4 MPa\""),
+                self.refuse(
+                    scene.place_of(name),
+                    format!("[{name}] without a law"),
+                    "a table [law], as type = \"neo-hookean\" and shear_modulus = \"0.4 MPa\"",
                 );
             }
             return None;
@@ -103,8 +103,7 @@ impl Builder<'_> {
                     SolidsError::OutOfBounds { bound, .. } => format!("numbers with {bound}"),
                     _ => "finite numbers".to_string(),
                 };
-                self.wrong(Mistake::new(table.place_of(key), error.to_string()).valid(valid));
-                None
+                self.refused(table.place_of(key), error.to_string(), valid)
             }
         }
     }

@@ -208,7 +208,7 @@ fn more_samples_than_memory_holds_are_refused() {
     let body = |i: u32| format!("[[body]]\nname = 'b{i}'\ngm = 1\nposition = [{i}, 0, 0]\nvelocity = [0, 0, 0]\n");
     let bodies: String = (0..6).map(body).collect();
     let text = format!("[gravity]\n{bodies}[time]\nend = 1\n[output]\nsamples = 1000000\n");
-    assert_mistake(&text, "1000000", &["1000000 samples of 6 bodies", "at most 833333"]);
+    assert_mistake(&text, "1000000", &["1000000 samples of 36 numbers", "at most 833333"]);
 }
 
 #[test]

@@ -101,13 +101,19 @@ fn mistakes_in_constraints_are_shown_at_their_places() {
         "0.0\n\n[[constraint]]",
         &["greater than zero"],
     );
-    assert_mistake(&replaced(SLIDER, "from = \"pin\"", "from = \"slider\""), "\"slider\"\nlength", &["the same point"]);
+    assert_mistake(
+        &replaced(SLIDER, "from = \"pin\"", "from = \"slider\""),
+        "\"slider\"\nlength",
+        &["both ends are on one body"],
+    );
     let fixed = replaced(SLIDER, "[output]", "[integrator]\nmethod = \"gauss-legendre-8\"\n[output]");
     assert_mistake(&fixed, "\"gauss-legendre-8\"", &["a fixed step with constraints", "dormand-prince-853"]);
     let stepped = replaced(SLIDER, "[output]", "[integrator]\nstep = 0.01\n[output]");
     assert_mistake(&stepped, "0.01\n[output]", &["a fixed step with constraints"]);
     let free = format!("{}\n[output]\nreactions = true\n", crate::support::PAIR);
-    assert_mistake(&free, "true", &["nothing holds bodies that are free"]);
+    assert_mistake(&free, "true", &["`reactions` of a scene without joints", "in a [mechanism]"]);
+    let study = "[wavefront]\ntype = 'point'\nlength = 1.0\n[[medium]]\ntype = 'uniform'\n[output]\nreactions = true\n";
+    assert_mistake(study, "true", &["`reactions` of a scene without joints"]);
     // A rod that reaches nowhere: the scene is valid, the plan says so, and the run does not start.
     let short = scene(&replaced(SLIDER, "60 cm", "1 mm"));
     let plan = Plan::of(&short);
@@ -132,4 +138,37 @@ fn reactions_of_a_top_that_stands_are_its_weight() {
     let fall = 9.80665 * 0.25 / (0.25 + 0.75);
     let held = run.history.reactions[0][0];
     assert_close("force", &held.force, &[0.0, 0.0, 9.80665 - fall], Tol::stated(1e-14, "of terms of size ten"));
+}
+
+#[test]
+fn the_summary_names_singular_positions_that_a_parallelogram_goes_through() {
+    let crank = |name: &str, at: f64| {
+        format!(
+            "[[joint]]\nname = '{name}'\ntype = 'revolute'\naxis = [0, -1, 0]\noffset = [{at:?}, 0.0, 0.0]\nangle = 0.5\n\
+             rate = 1.0\n[[particle]]\nname = '{name} pin'\njoint = '{name}'\nmass = 1.0\nat = [1.0, 0.0, 0.0]\n"
+        )
+    };
+    let text = format!(
+        "[mechanism]\ngravity = [0.0, 0.0, 0.0]\n{}{}[[constraint]]\nname = 'rod'\ntype = 'distance'\nfrom = 'left pin'\n\
+         to = 'right pin'\n[time]\nend = 4.0\n[integrator]\ntolerance = 1e-10\n",
+        crank("left", 0.0),
+        crank("right", 2.0)
+    );
+    let scene = scene(&text);
+    let plan = Plan::of(&scene);
+    let run = run::run(&scene, &plan, |_| ControlFlow::Continue(()));
+    assert_eq!(run.outcome, Outcome::Completed);
+    let told = piola_scene::output::Summary::of(&scene, &plan, &run).singular_positions;
+    assert!(told.len() == 1 && told[0]["constraint"] == "rod" && told[0]["time_s"].is_number(), "{told:?}");
+}
+
+#[test]
+fn all_columns_of_a_record_count_against_memory() {
+    let damper = |i: u32| {
+        format!("[[force]]\nname = 'd{i}'\ntype = 'torsion-spring'\ncoordinate = 'crank'\ntorsional_damping = 1.0\n")
+    };
+    let many: String = (0..97).map(damper).collect();
+    // 97 works and that of the drive, 2 places, 2 coordinates with rates, 2 reactions, and the forces of 2 constraints: 122.
+    let text = replaced(&format!("{SLIDER}{many}"), "samples = 11", "samples = 1000000");
+    assert_mistake(&text, "1000000", &["1000000 samples of 122 numbers", "at most 245901"]);
 }

@@ -186,8 +186,33 @@ fn mistakes_in_forces_are_shown_at_their_places() {
     assert_mistake(
         &replaced(CART, "from = \"ground\"\nfrom_at = [-1.0, 0.0, 0.0]", "from = \"cart\""),
         "\"cart\"\nstiffness",
-        &["both ends are the same point"],
+        &["both ends are on one body"],
     );
+    let arm = replaced(CART, "from = \"ground\"\nfrom_at = [-1.0, 0.0, 0.0]", "from = \"left arm\"");
+    assert_mistake(
+        &replaced(&arm, "to = \"cart\"", "to = \"bob\""),
+        "\"bob\"\nstiffness",
+        &["both ends are on one body"],
+    );
+    let at_once = replaced(CART, "from_at = [-1.0, 0.0, 0.0]", "from_at = [0.1, 0.0, 0.0]");
+    assert_mistake(&at_once, "\"cart\"\nstiffness", &["at one place at the start", "ends apart"]);
+    // A plain spring of no length has its forces there.
+    let plain = replaced(&at_once, "length = \"1 m\"\ndamping = \"1 N s/m\"", "length = 0.0");
+    assert_eq!(complete(&plain).history.work_names, ["air", "drive"]);
+    let ground = replaced(CART, "quadratic = \"0.1 kg/m\"", "part = \"ground\"");
+    assert_mistake(&ground, "\"ground\"\n\n[[force]]\nname = \"drive\"", &["no force moves the ground"]);
+    let pull = replaced(&ground, "type = \"drag\"", "type = \"constant-force\"\nforce = [1.0, 0.0, 0.0]");
+    assert_mistake(&pull, "\"ground\"\n\n[[force]]\nname = \"drive\"", &["no force moves the ground"]);
+    let reserved = replaced(CART, "name = \"air\"", "name = \"prescribed motion\"");
+    assert_mistake(&reserved, "\"prescribed motion\"", &["the work of all drives"]);
+    let named = replaced(CART, "name = \"cart\"", "name = \"ground\"");
+    assert!(report_with(&named, &[]).to_string().contains("the name `ground` is taken"));
+    // A joint may have any name where no expression reads it.
+    let pi = replaced(&CART.replace("`left arm`", "1"), "\"left arm\"\nparent", "\"pi\"\nparent");
+    let pi = replaced(&pi, "joint = \"left arm\"", "joint = \"pi\"");
+    assert_mistake(&pi, "\"pi\"\nparent", &["`pi` has a meaning of its own in expressions"]);
+    let silent = pi.split("[[force]]\nname = \"drive\"").next().unwrap_or_default();
+    assert_eq!(complete(&format!("{silent}[time]\nend = 0.1\n")).history.coordinate_names, ["rail", "pi"]);
     let rate = replaced(CART, "1 [N m] *", "1 [N s^2/m] * rate(rail)^2 + 1 [N m] *");
     assert_mistake(&rate, "\"0.5 * k", &["the stored energy depends on a rate"]);
     assert_mistake(&replaced(CART, "k = \"40 N/m\"", "t = \"40 N/m\"\nk = \"1 N/m\""), "t = \"40", &["`t` is taken"]);

@@ -111,7 +111,9 @@ fn mistakes_in_hamiltonians_are_shown_at_their_places() {
     let reference = format!("{STARS}\n[reference]\nclosed_form = 'kepler'\n");
     assert!(report(&reference).to_string().contains("[reference] in a scene of [hamiltonian]"));
     let bare = "[hamiltonian]\nenergy = '1'\n[time]\nend = 1\n";
-    assert!(report(bare).to_string().contains("[hamiltonian] without coordinates"));
+    assert_mistake(bare, "[hamiltonian]", &["[hamiltonian] without coordinates"]);
+    let backwards = replaced(STARS, "end = \"100 s\"", "end = \"-100 s\"");
+    assert_mistake(&backwards, "true", &["`exponent` of a run backwards in time", "an end after the start"]);
 }
 
 #[test]
@@ -160,4 +162,72 @@ energies = true
     assert!(summary.contains("asymptotically stable"), "{summary}");
     let tie = "[[constraint]]\nname = 'it'\ntype = 'prescribed'\ncoordinate = 'turn'\nmotion = 't/1[s]'\n[questions]";
     assert_mistake(&replaced(asked, "[questions]", tie), "true\n", &["under a [[constraint]]"]);
+}
+
+/// A coordinate q with the momentum p under H.
+fn single(energy: &str, start: f64, momentum: f64) -> String {
+    format!(
+        "[hamiltonian]\nenergy = \"{energy}\"\n[[coordinate]]\nname = 'q'\nmomentum = 'p'\nstart = {start:?}\n\
+         momentum_at_start = {momentum:?}\n[time]\nend = 40.0\n[output]\nsamples = 11\n"
+    )
+}
+
+#[test]
+fn a_start_that_tells_nothing_of_the_turns_takes_an_adaptive_method() {
+    let quarter = core::f64::consts::FRAC_PI_2;
+    for text in [single("p^2/2 + q^4", 0.001, 1.0), single("p^2/2 - cos(q)", quarter, 0.0)] {
+        let (plan, run) = complete(&text);
+        assert_eq!(plan.method.step(), None, "{}", plan.reason);
+        assert!(plan.reason.contains("less than half as long as at the start"), "{}", plan.reason);
+        let drift = run.drifts.energy.map_or(f64::NAN, |drift| drift.max_relative);
+        assert_close("drift", &[drift], &[0.0], Tol::stated(1e-11, "the tolerance 1e-14 times some hundred steps"));
+    }
+    let (plan, _) = complete(&single("p^2/2 - cos(q)", 1.0, 0.0));
+    assert_eq!(plan.method.to_string(), "composition-8");
+    let step = plan.method.step().unwrap_or_default();
+    let expected = core::f64::consts::TAU / 100.0;
+    assert_close(
+        "step",
+        &[step],
+        &[expected],
+        Tol::stated(1e-2, "of the nearest step of the trial to the lowest place"),
+    );
+}
+
+#[test]
+fn an_orbit_of_kepler_runs_with_the_method_that_is_chosen() {
+    let text = "
+[hamiltonian]
+energy = \"(px^2+py^2)/2 - 1/sqrt(x^2+y^2)\"
+[[coordinate]]
+name = 'x'
+momentum = 'px'
+start = 0.9
+[[coordinate]]
+name = 'y'
+momentum = 'py'
+momentum_at_start = 1.1055415967851332
+[time]
+end = 6.283185307179586
+[output]
+samples = 3
+";
+    let (plan, run) = complete(text);
+    assert_eq!(plan.method.to_string(), "composition-8");
+    let [start, half, end] = &run.history.coordinates[..] else { panic!("three instants") };
+    let tolerance = Tol::stated(1e-10, "order eight at a hundred steps a turn");
+    assert_close("after a period", end, start, tolerance);
+    assert_close("apocentre", &half[..2], &[-1.1, 0.0], tolerance);
+}
+
+#[test]
+fn the_summary_tells_what_was_asked_and_nothing_else() {
+    let answers = |text: &str| {
+        let (plan, run) = complete(text);
+        Summary::of(&scene(text), &plan, &run).answers.unwrap_or_default()
+    };
+    let exponent = answers(&replaced(STARS, "section = \"x\"\ncrossings = 20\n", ""));
+    assert!(exponent.get("crossings").is_none() && exponent["largest_exponent_1_per_s"].is_number(), "{exponent}");
+    let section = answers(&replaced(STARS, "section = \"x\"\ncrossings = 20\nexponent = true", "section = \"x - 9\""));
+    assert!(section["crossings"] == 0 && section.get("largest_exponent_1_per_s").is_none(), "{section}");
 }

@@ -23,7 +23,7 @@ use crate::joints::{Anchor, JointTree, Mechanism, finite};
 /// # Example
 /// See [`Mechanism::with_constraints`].
 #[derive(Debug, Clone, Copy)]
-pub struct MechanismConstraints<'m>(&'m Mechanism);
+pub struct MechanismConstraints<'m>(pub(crate) &'m Mechanism);
 
 /// The equations of a mechanism with its constraints.
 ///

@@ -2,7 +2,7 @@
 
 use super::{Force, ForceKind, drag, rate_of_distance, reader, velocity};
 use crate::expression::Variable;
-use crate::joints::JointTree;
+use crate::joints::{JointTree, Mechanism};
 
 impl ForceKind {
     /// Whether it may take energy or give it.
@@ -39,6 +39,15 @@ impl ForceKind {
             }
             Self::Spring { .. } | Self::Uniform { .. } | Self::Central { .. } | Self::Potential { .. } => 0.0,
         }
+    }
+}
+
+impl Mechanism {
+    /// Names of the works that are integrated with the motion: of forces, then `prescribed motion` of all drives together.
+    #[must_use]
+    pub fn work_names(&self) -> Vec<String> {
+        let forces = working(&self.forces).into_iter().map(|i| self.forces[i].name.clone());
+        forces.chain(self.is_driven().then(|| "prescribed motion".to_string())).collect()
     }
 }
 

@@ -33,6 +33,9 @@ pub struct History {
     pub conditions: Vec<Vec<f64>>,
     /// Forces and moments on the parts, for each instant and part; empty unless reactions are asked for.
     pub reactions: Vec<Vec<PartReaction>>,
+    /// Singular positions of the constraints that the motion went through, the first 64: s and the constraint that depends on
+    /// others there. Motions of several kinds meet there, and the recorded one goes on along the smooth branch.
+    pub singular_positions: Vec<(f64, String)>,
     /// Invariants. With an adaptive method they stand at the end of the step that an instant falls into, where the state is
     /// best known.
     pub invariants: Vec<Invariants>,
@@ -65,8 +68,8 @@ pub struct Invariants {
     pub energy: f64,
     /// The work that forces, dampers and drives have brought in since the start, J: `energy` − `work` is what is conserved.
     pub work: f64,
-    /// A scale of energy besides the first energy: the kinetic energy in a mechanism, whose potential has an arbitrary zero; 0
-    /// otherwise.
+    /// A scale of energy besides the first energy: the kinetic energy in a mechanism, whose potential has an arbitrary zero, and
+    /// ½ |p·∂H/∂p| under a Hamiltonian; 0 otherwise.
     pub energy_scale: f64,
     /// Energy with the post-Newtonian part, J, when that is on.
     pub post_newtonian_energy: Option<f64>,
@@ -96,8 +99,8 @@ pub struct Drift {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Drifts {
-    /// |E − W − E₀| relative to |E₀| (in a mechanism to the largest of |E₀| and the kinetic energy), W being the work of its
-    /// forces.
+    /// |E − W − E₀| relative to |E₀|, W being the work of its forces. In a mechanism it is relative to the largest of |E₀| and
+    /// the kinetic energy, under a Hamiltonian to the largest of |E₀| and ½ |p·∂H/∂p|.
     pub energy: Option<Drift>,
     /// Drift of the energy with its post-Newtonian part, likewise.
     pub post_newtonian_energy: Option<Drift>,

@@ -3,13 +3,14 @@
 use nalgebra::Vector3;
 use piola_integrators::{Field, State};
 use piola_kinematics::{Attitude, Holonomic, Placement, RigidBody};
-use piola_lagrangian::{LagrangianError, Reaction, Workspace, constraints};
+use piola_lagrangian::constraints::{self, Constraints as _};
+use piola_lagrangian::{LagrangianError, Reaction, Workspace};
 
 use super::drive::{Driver, Reading};
 use super::energies;
 use super::{History, Invariants, Method, PartReaction};
 use crate::SimulationError;
-use crate::constraints::ConstrainedMechanism;
+use crate::constraints::{ConstrainedMechanism, MechanismConstraints};
 use crate::forces::{MechanismLagrangian, working};
 use crate::joints::Mechanism;
 
@@ -24,10 +25,7 @@ pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver)
     let working = working(&system.forces);
     let history = driver.history();
     history.coordinate_names.clone_from(&system.coordinates);
-    history.work_names = working.iter().map(|&i| system.forces[i].name.clone()).collect();
-    if system.is_driven() {
-        history.work_names.push("prescribed motion".to_string());
-    }
+    history.work_names = system.work_names();
     let works = history.work_names.len();
     if system.reactions {
         history.condition_names = system.condition_names();
@@ -64,7 +62,17 @@ pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver)
         Power { system, lagrangian: &lagrangian, working: &working, work: Workspace::default(), forces: vec![0.0; n] };
     match &constrained {
         Some(constrained) => {
-            driver.field(method, &mut WithWork { field: constrained.motion(n), power, works }, &mut state, &mut reading)
+            let mut field = WithWork { field: constrained.motion(n), power, works };
+            let done = driver.field(method, &mut field, &mut state, &mut reading);
+            let name = |condition| MechanismConstraints(system).name(condition).unwrap_or_default().to_string();
+            let passed = field.field.singular_positions().iter();
+            driver.history().singular_positions = passed.map(|at| (at.t, name(at.condition))).collect();
+            done.map_err(|why| {
+                let singular = why
+                    .contains("singular")
+                    .then_some("; a run through such a position needs a tolerance of about 1e-10");
+                why + singular.unwrap_or_default()
+            })
         }
         None if canonical => {
             let field = &mut WithWork { field: lagrangian.canonical_motion(n), power, works };

@@ -6,14 +6,17 @@
 
 mod questions;
 
-use piola_hamiltonian::{HamiltonianError, PhaseFunction, hessian};
-use piola_integrators::Separable;
+use core::ops::ControlFlow;
+
+use piola_hamiltonian::{HamiltonianError, HamiltonianField, PhaseFunction, hessian};
+use piola_integrators::{DormandPrince853, Separable, State, Tolerance};
 use piola_numerics::Real;
 
 use crate::SimulationError;
 use crate::expression::{Expression, Variable};
 use crate::forces::{exists, in_coordinates};
 use crate::joints::finite;
+use crate::motion::TimeSpan;
 
 pub use questions::{PhaseAnswers, PhaseQuestions};
 
@@ -111,11 +114,69 @@ impl PhaseSystem {
     /// About the shortest period of small motions at the start, s: 2π/√(|∂²H/∂p²| |∂²H/∂q²|); none where one of them is zero.
     #[must_use]
     pub fn turn(&self, t: f64) -> Option<f64> {
+        self.turn_at(&self.position, &self.momentum, t)
+    }
+
+    fn turn_at(&self, q: &[f64], p: &[f64], t: f64) -> Option<f64> {
         let n = self.freedom();
-        let second = hessian(&self.hamiltonian, &self.position, &self.momentum, t).ok()?;
+        let second = hessian(&self.hamiltonian, q, p, t).ok()?;
         let size = |first: usize| second.view((first, first), (n, n)).norm();
         let rate = (size(0) * size(n)).sqrt();
         (0.0 < rate && rate.is_finite()).then(|| core::f64::consts::TAU / rate)
+    }
+
+    /// The shortest of the [turns](Self::turn) along a trial of the motion, s; none where all are infinite.
+    ///
+    /// The trial takes at most 500 adaptive steps of the tolerance 1e-6, fewer of many coordinates.
+    ///
+    /// # Example
+    /// H = ½ p² − cos q from q = π/2, where the second derivative of H by q vanishes: at the lowest place the turn is 2π.
+    /// ```
+    /// use piola_simulation::expression::{Expression, ExpressionNode as Node, Function, Operation, Variable};
+    /// use piola_simulation::motion::TimeSpan;
+    /// use piola_simulation::phase::PhaseSystem;
+    /// let nodes = vec![
+    ///     Node::Constant(0.5),
+    ///     Node::Variable(Variable::Conjugate(0)),
+    ///     Node::WholePower(1, 2),
+    ///     Node::Operation(Operation::Product, 0, 2),
+    ///     Node::Variable(Variable::Coordinate(0)),
+    ///     Node::Function(Function::Cos, 4),
+    ///     Node::Operation(Operation::Difference, 3, 5),
+    /// ];
+    /// let names = (vec!["q".into()], vec!["p".into()]);
+    /// let start = vec![std::f64::consts::FRAC_PI_2];
+    /// let pendulum = PhaseSystem::new(Expression::new(nodes)?, names, start, vec![0.0])?;
+    /// assert!(pendulum.turn(0.0).is_some_and(|turn| 1e8 < turn));
+    /// let fastest = pendulum.fastest_turn(TimeSpan { start: 0.0, end: 100.0 });
+    /// assert!(fastest.is_some_and(|turn| (turn - std::f64::consts::TAU).abs() < 0.01));
+    /// # Ok::<(), piola_simulation::SimulationError>(())
+    /// ```
+    #[must_use]
+    pub fn fastest_turn(&self, span: TimeSpan) -> Option<f64> {
+        /// Relative tolerance of a step: the trial need not be a result.
+        const TOLERANCE: f64 = 1e-6;
+        let n = self.freedom();
+        // A Hessian takes some n² values of H, a step some n: neither may take long.
+        let (most, every) = ((2000 / n).clamp(20, 500), 1 + n / 12);
+        let mut fastest = self.turn(span.start);
+        let (Ok(mut state), Ok(tolerance)) =
+            (State::new(span.start, [&self.position[..], &self.momentum].concat()), Tolerance::relative(TOLERANCE))
+        else {
+            return fastest;
+        };
+        let mut steps = 0;
+        let mut field = HamiltonianField::new(&self.hamiltonian, n);
+        // A trial that fails was long enough until then.
+        let _ = DormandPrince853::new(tolerance).integrate(&mut field, &mut state, span.end, |step| {
+            steps += 1;
+            if steps % every == 0 {
+                let (q, p) = step.values().split_at(n);
+                fastest = fastest.into_iter().chain(self.turn_at(q, p, step.time())).reduce(f64::min);
+            }
+            if most <= steps { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        fastest
     }
 }
 
@@ -126,10 +187,12 @@ pub(crate) struct Split<'s> {
 
 impl Split<'_> {
     fn partial(&self, by: Variable, q: &[f64], p: &[f64], t: f64) -> Result<f64, HamiltonianError> {
-        // Of a separable H each derivative reads one half of the state: the other half may be anything.
+        // Of a separable H each derivative depends on one half of the state. The other half keeps its values at the start, where
+        // H is defined: at zero it need not be, as 1/q is not.
+        let held = |half: &[f64], start: &[f64], i: usize| half.get(i).or(start.get(i)).copied().unwrap_or_default();
         let read = |variable| match variable {
-            Variable::Coordinate(i) => q.get(i).copied().unwrap_or(0.0),
-            Variable::Conjugate(i) => p.get(i).copied().unwrap_or(0.0),
+            Variable::Coordinate(i) => held(q, &self.system.position, i),
+            Variable::Conjugate(i) => held(p, &self.system.momentum, i),
             Variable::Time => t,
         };
         let slope = self.system.hamiltonian.0.partial(by, &read).tangent;

@@ -20,7 +20,7 @@ const INTERVALS: usize = 400;
 pub struct PhaseQuestions {
     /// The surface s(q, p) = 0 of a Poincaré section, crossed upwards, and the most crossings that are sought.
     pub section: Option<(PhaseExpression, usize)>,
-    /// Whether the largest Lyapunov exponent is estimated.
+    /// Whether the largest Lyapunov exponent is estimated: over a span that ends after its start.
     pub exponent: bool,
     /// Relative tolerance of a step for both.
     pub tolerance: f64,
@@ -35,7 +35,7 @@ pub struct PhaseQuestions {
 pub struct PhaseAnswers {
     /// Crossings of the section: time, then q and p.
     pub crossings: Vec<(f64, Vec<f64>)>,
-    /// The estimate of the largest exponent, 1/s, at the end, and over time: (time, estimate).
+    /// The estimate of the largest exponent at the end, 1/s.
     pub exponent: Option<f64>,
     /// Its estimates over time: (s since the start, 1/s).
     pub estimates: Vec<[f64; 2]>,
@@ -104,6 +104,10 @@ impl PhaseSystem {
             });
             answers.crossings = points.iter().map(|point| (point.time(), [point.q(), point.p()].concat())).collect();
             followed.map_err(|error| format!("the section: {error}"))?;
+        }
+        if *exponent && span.end < span.start {
+            let why = "the Lyapunov exponent of a run backwards in time: an end after the start would be valid";
+            return Err(why.to_string());
         }
         if *exponent && watch(0.0).is_continue() {
             let tolerance = Tolerance::relative(*tolerance).map_err(|error| error.to_string())?;

@@ -23,7 +23,7 @@ pub struct MechanismMode {
     pub growth_rate: f64,
     /// Displacements of the coordinates in phase, the largest of length one.
     pub shape: Vec<f64>,
-    /// Displacements a quarter of a turn later; empty where all coordinates move in phase.
+    /// Displacements a quarter of a turn later, without the growth until then; empty where all coordinates move in phase.
     pub quadrature: Vec<f64>,
 }
 
@@ -88,11 +88,20 @@ impl Mechanism {
 fn is_conservative(small: &Linearisation) -> bool {
     /// Some hundred ulp.
     const ROUNDING: f64 = 1e-13;
-    let size = |matrix: &DMatrix<f64>| matrix.amax();
-    let rates = (size(&small.mass_matrix) * size(&small.stiffness)).sqrt();
-    size(&small.damping) <= ROUNDING * rates
-        && size(&small.gyroscopic) <= ROUNDING * rates
-        && size(&small.circulatory) <= ROUNDING * size(&small.stiffness)
+    let masses = small.mass_matrix.diagonal();
+    // Over √(mᵢ mⱼ) entries of all coordinates have one unit, 1/s or 1/s².
+    let scaled = |matrix: &DMatrix<f64>| {
+        DMatrix::from_fn(masses.len(), masses.len(), |i, j| matrix[(i, j)] / (masses[i] * masses[j]).sqrt())
+    };
+    let (stiffness, damping) = (scaled(&small.stiffness), scaled(&small.damping));
+    let square = stiffness.amax();
+    // Forces without rates have no damping, not even by rounding: each coordinate is measured by its own stiffness, so that a
+    // light damped one is not lost beside a stiff one.
+    let rates: Vec<f64> = stiffness.row_iter().map(|row| row.amax().sqrt()).collect();
+    let damped = |i: usize, j: usize| ROUNDING * (rates[i] * rates[j]).sqrt() < damping[(i, j)].abs();
+    (0..masses.len()).all(|i| (0..masses.len()).all(|j| !damped(i, j)))
+        && scaled(&small.gyroscopic).amax() <= ROUNDING * square.sqrt()
+        && scaled(&small.circulatory).amax() <= ROUNDING * square
 }
 
 fn normal(found: &NormalModes) -> Vec<MechanismMode> {
@@ -117,7 +126,8 @@ fn complex(found: &ComplexModes) -> Vec<MechanismMode> {
             angular_frequency: mode.angular_frequency(),
             growth_rate: mode.growth_rate(),
             shape: mode.shape.iter().map(|x| x.re / largest).collect(),
-            quadrature: mode.shape.iter().map(|x| x.im / largest).collect(),
+            // A quarter of a turn later e^{iωt} is i: Re(iφ) = −Im φ.
+            quadrature: mode.shape.iter().map(|x| -x.im / largest).collect(),
         }
     };
     found.modes.iter().map(mode).collect()

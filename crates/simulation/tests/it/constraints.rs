@@ -174,3 +174,21 @@ fn methods_that_do_not_project_and_constraints_that_cannot_be_are_refused() {
     let torn = attempt(&under(plane.clone(), vec![rod(1.0), rod(2.0)]), FINE, 1.0);
     assert!(matches!(&torn.outcome, Outcome::Failed(why) if why.contains("c1") || why.contains("c0")), "{torn:?}");
 }
+
+#[test]
+fn a_parallelogram_lists_where_its_cranks_lie_on_its_rod() {
+    // Two cranks of 1 m, 2 m apart, and a rod of 2 m: at an angle of π all lie on one line, and the cranks could also cross.
+    let crank = |at: f64| joint(None, [at, 0.0, 0.0], JointMotion::Revolute([0.0, -1.0, 0.0]), [0.5, 1.0]);
+    let pins = [0, 1].map(|joint| particle(joint, 1.0, [1.0, 0.0, 0.0]));
+    let mut cranks = mechanism(vec![crank(0.0), crank(2.0)], pins.to_vec());
+    cranks.gravity = [0.0; 3];
+    let ends =
+        [0, 1].map(|joint| cranks.tree.anchor(Some(joint), [1.0, 0.0, 0.0]).unwrap_or_else(|error| panic!("{error}")));
+    let held = under(cranks, vec![ConstraintKind::Distance { ends, length: 2.0 }]);
+    let run = attempt(&held, Method::DormandPrince { tolerance: 1e-10 }, 4.0);
+    assert_eq!(run.outcome, Outcome::Completed);
+    let [(t, name)] = &run.history.singular_positions[..] else { panic!("{:?}", run.history.singular_positions) };
+    assert_eq!(name, "c0");
+    let tolerance = Tol::stated(0.1, "relative, of linear interpolation over a step of half a second");
+    assert_close("time", &[*t], &[core::f64::consts::PI - 0.5], tolerance);
+}

@@ -218,3 +218,122 @@ fn energies_by_part_add_up_to_the_energy() {
     }
     assert_eq!(compared, 6);
 }
+
+/// ½ (p₀² + p₁²) − 1/√(q₀² + q₁²), from the pericentre of an orbit of the semi-major axis 1.
+fn orbit(eccentricity: f64) -> PhaseSystem {
+    let of = |variable: fn(usize) -> Variable| [Node::Variable(variable(0)), Node::Variable(variable(1))];
+    let ([p0, p1], [q0, q1]) = (of(Variable::Conjugate), of(Variable::Coordinate));
+    let squares = |a, b, first: usize| {
+        let sum = Node::Operation(Operation::Sum, first + 1, first + 3);
+        [a, Node::WholePower(first, 2), b, Node::WholePower(first + 2, 2), sum]
+    };
+    let mut nodes = squares(p0, p1, 0).to_vec();
+    nodes.extend([Node::Constant(0.5), Node::Operation(Operation::Product, 4, 5)]);
+    nodes.extend(squares(q0, q1, 7));
+    nodes.extend([Node::Function(Function::Sqrt, 11), Node::WholePower(12, -1)]);
+    nodes.push(Node::Operation(Operation::Difference, 6, 13));
+    let names = |name: &str| vec![format!("{name}0"), format!("{name}1")];
+    let speed = ((1.0 + eccentricity) / (1.0 - eccentricity)).sqrt();
+    let (start, momentum) = (vec![1.0 - eccentricity, 0.0], vec![0.0, speed]);
+    PhaseSystem::new(expression(nodes), (names("q"), names("p")), start, momentum).unwrap_or_else(|e| panic!("{e}"))
+}
+
+#[test]
+fn a_composition_takes_an_orbit_about_a_centre_where_h_is_not_defined() {
+    let kepler = orbit(0.1);
+    assert!(kepler.hamiltonian.0.is_separable());
+    let run = run(&kepler, Method::Composition { order: Order::Eight, step: TAU / 200.0 }, TAU);
+    let [first, .., last] = &run.history.coordinates[..] else { panic!("no record") };
+    assert_close("after a turn", last, first, Tol::stated(1e-11, "order eight at 200 steps a turn"));
+    let half = &run.history.coordinates[5];
+    assert_close("apocentre", &half[..2], &[-1.1, 0.0], Tol::stated(1e-11, "order eight at 200 steps a turn"));
+}
+
+#[test]
+fn the_fastest_turn_is_found_along_the_motion() {
+    // ½ p² + q⁴ from q = 0.001, p = 1: at the ends q⁴ = ½, where ∂²H/∂q² = 12 q² = 6 √2.
+    let quartic = system(kinetic_and(vec![Q, Node::WholePower(4, 4)]), 0.001, 1.0);
+    let span = TimeSpan { start: 0.0, end: 100.0 };
+    assert!(quartic.turn(0.0).is_some_and(|turn| 1000.0 < turn));
+    let expected = TAU / (6.0 * 2.0_f64.sqrt()).sqrt();
+    let found = quartic.fastest_turn(span).unwrap_or_default();
+    assert_close("turn", &[found], &[expected], Tol::stated(1e-2, "relative, of the nearest step to the end"));
+    assert_eq!(system(kinetic_and(vec![Q]), 0.0, 1.0).fastest_turn(span), None);
+}
+
+#[test]
+fn the_exponent_of_a_run_backwards_in_time_is_refused() {
+    let mut pendulum = pendulum();
+    pendulum.questions = PhaseQuestions { section: None, exponent: true, tolerance: 1e-11 };
+    let (answers, outcome) = pendulum.answers(TimeSpan { start: 10.0, end: 0.0 }, &mut |_| ControlFlow::Continue(()));
+    assert!(matches!(&outcome, Outcome::Failed(why) if why.contains("backwards in time")), "{outcome:?}");
+    assert_eq!(answers.exponent, None);
+}
+
+#[test]
+fn the_quadrature_of_a_mode_is_its_shape_a_quarter_of_a_turn_later() {
+    // About the hanging chain M = [5 2; 2 1], K = [30 10; 10 10], and a damper at the first joint alone.
+    let damper = ForceKind::JointSpring { coordinate: 0, stiffness: 0.0, rest: 0.0, damping: 1.5 };
+    let answers = chain([0.2, -0.1], vec![damper]).answers(0.0).unwrap_or_else(|error| panic!("{error}"));
+    let acceleration = |q: [f64; 2], v: [f64; 2]| {
+        let force = [-30.0 * q[0] - 10.0 * q[1] - 1.5 * v[0], -10.0 * q[0] - 10.0 * q[1]];
+        [force[0] - 2.0 * force[1], -2.0 * force[0] + 5.0 * force[1]]
+    };
+    let mut compared = 0;
+    for mode in answers.modes.iter().filter(|mode| 0.0 < mode.angular_frequency) {
+        let (growth, turn) = (mode.growth_rate, mode.angular_frequency);
+        let [shape, later] = [&mode.shape, &mode.quadrature].map(|half| [half[0], half[1]]);
+        assert!(later.iter().any(|x| 1e-3 < x.abs()), "{later:?}");
+        let mut y = [shape, [0, 1].map(|i| growth * shape[i] + turn * later[i])].concat();
+        let (steps, rate) = (2000, |y: &[f64]| {
+            let [a, b] = acceleration([y[0], y[1]], [y[2], y[3]]);
+            [y[2], y[3], a, b]
+        });
+        let quarter = 0.25 * TAU / turn;
+        let h = quarter / f64::from(steps);
+        for _ in 0..steps {
+            let moved = |k: &[f64; 4], by: f64| -> Vec<f64> { y.iter().zip(k).map(|(y, k)| y + by * k).collect() };
+            let k1 = rate(&y);
+            let k2 = rate(&moved(&k1, 0.5 * h));
+            let k3 = rate(&moved(&k2, 0.5 * h));
+            let k4 = rate(&moved(&k3, h));
+            y = (0..4).map(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i])).collect();
+        }
+        let expected = later.map(|x| x * (growth * quarter).exp());
+        assert_close(
+            "a quarter of a turn later",
+            &y[..2],
+            &expected,
+            Tol::stated(1e-9, "Runge and Kutta's of order four"),
+        );
+        compared += 1;
+    }
+    assert_eq!(compared, 2);
+}
+
+#[test]
+fn a_light_damped_slide_beside_a_heavy_stiff_one_is_damped() {
+    // ω = 1/s with half the critical damping, beside 1e6 kg on 1e9 N/m.
+    let slide = |name: &str| Joint {
+        parent: None,
+        offset: [0.0; 3],
+        motion: JointMotion::Prismatic([1.0, 0.0, 0.0]),
+        coordinates: vec![Coordinate { name: name.into(), angular: false, position: 0.0, velocity: 0.0 }],
+    };
+    let block = |joint: usize, mass: f64| {
+        let name = format!("block {joint}");
+        Part { joint, name, at: [0.0; 3], kind: PartKind::Particle(mass) }
+    };
+    let spring = |coordinate: usize, stiffness: f64, damping: f64| {
+        let kind = ForceKind::JointSpring { coordinate, stiffness, rest: 0.0, damping };
+        Force { name: format!("spring {coordinate}"), kind }
+    };
+    let mut pair = Mechanism::new(vec![slide("light"), slide("heavy")], vec![block(0, 1e-6), block(1, 1e6)], [0.0; 3])
+        .and_then(|pair| pair.with_forces(vec![spring(0, 1e-6, 1e-6), spring(1, 1e9, 0.0)]))
+        .unwrap_or_else(|error| panic!("{error}"));
+    pair.questions.modes = true;
+    let answers = pair.answers(0.0).unwrap_or_else(|error| panic!("{error}"));
+    let light = answers.modes.iter().find(|mode| mode.angular_frequency < 2.0).unwrap_or_else(|| panic!("no mode"));
+    let found = [light.growth_rate, light.angular_frequency];
+    assert_close("mode", &found, &[-0.5, 0.75_f64.sqrt()], Tol::stated(1e-9, "eigenvalues beside one of 30/s"));
+}

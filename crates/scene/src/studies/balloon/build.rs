@@ -6,7 +6,6 @@ use piola_solutions::loads::Shell;
 use super::Balloon;
 use crate::model::Builder;
 use crate::studies::limits::{load_limit, reach};
-use piola_document::Mistake;
 use piola_document::Record;
 use piola_document::words;
 
@@ -16,11 +15,11 @@ impl Builder<'_> {
         let radii = self.radii(table);
         let stretch = table.pair("stretch")?;
         if !(0.0 < stretch[0] && stretch[0] < stretch[1]) {
-            self.wrong(
-                Mistake::new(table.place_of("stretch"), format!("stretches of {}", words::numbers(&stretch)))
-                    .valid("two increasing numbers greater than zero"),
+            return self.refused(
+                table.place_of("stretch"),
+                format!("stretches of {}", words::numbers(&stretch)),
+                "two increasing numbers greater than zero",
             );
-            return None;
         }
         let [inner, outer] = radii?;
         let Ok(shell) = Shell::new(inner, outer) else { return None };
@@ -34,16 +33,14 @@ impl Builder<'_> {
             } else {
                 "stretches nearer to 1".to_string()
             };
-            self.wrong(Mistake::new(table.place_of("stretch"), error.to_string()).valid(valid));
-            return None;
+            return self.refused(table.place_of("stretch"), error.to_string(), valid);
         }
         if table.has("pressure") {
             let pressure = table.number("pressure")?;
             if let Err(error) = curve.states_at(pressure, (stretch[0], stretch[1])) {
                 let limit = load_limit(&error, "Pa");
                 let place = table.place_of("pressure");
-                self.wrong(Mistake::new(place, format!("no state carries the pressure: {error}")).valid(limit));
-                return None;
+                return self.refused(place, format!("no state carries the pressure: {error}"), limit);
             }
         }
         Some(balloon)

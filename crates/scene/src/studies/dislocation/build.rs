@@ -2,7 +2,6 @@
 
 use super::{ScrewDislocations, Screws};
 use crate::model::Builder;
-use piola_document::Mistake;
 use piola_document::Record;
 use piola_document::words;
 
@@ -14,11 +13,11 @@ impl Builder<'_> {
             _ => Screws::Core { burgers: table.number("burgers")?, radius: table.number("core_radius")? },
         };
         if let Some(radius) = radii.iter().find(|radius| **radius <= 0.0) {
-            self.wrong(
-                Mistake::new(table.place_of("radii"), format!("a circuit of radius {} m", words::number(*radius)))
-                    .valid("lengths greater than zero"),
+            return self.refused(
+                table.place_of("radii"),
+                format!("a circuit of radius {} m", words::number(*radius)),
+                "lengths greater than zero",
             );
-            return None;
         }
         Some(ScrewDislocations { spread, radii, centre: table.pair("centre")?, tolerance: table.number("tolerance")? })
     }

@@ -11,9 +11,10 @@ impl Builder<'_> {
         let law = self.law(scene, "laminated_tube");
         let records = scene.records("layer");
         if records.is_empty() && !scene.has("layer") {
-            self.wrong(
-                Mistake::new(table.place.clone(), "[laminated_tube] without a layer")
-                    .valid("at least one [[layer]], as thickness = \"1 mm\""),
+            self.refuse(
+                table.place.clone(),
+                "[laminated_tube] without a layer",
+                "at least one [[layer]], as thickness = \"1 mm\"",
             );
         }
         let layers: Option<Vec<Layer>> = records.iter().map(layer).collect();
@@ -21,11 +22,11 @@ impl Builder<'_> {
         let layers = Layers::new(table.number("inner_radius")?, layers);
         let (pressure, stretch) = (table.number("inner_pressure")?, table.number("stretch")?);
         if stretch <= 1.0 {
-            self.wrong(
-                Mistake::new(table.place_of("stretch"), format!("a largest stretch of {stretch}"))
-                    .valid("a number greater than 1"),
+            return self.refused(
+                table.place_of("stretch"),
+                format!("a largest stretch of {stretch}"),
+                "a number greater than 1",
             );
-            return None;
         }
         let tube = LayeredTube { layers, law: law?, pressure, stretch };
         let homogeneous = tube.layers.homogeneous();
@@ -34,11 +35,11 @@ impl Builder<'_> {
                 Ok(held) => held,
                 Err(error) => {
                     let place = records.first().map_or(&table.place, |record| &record.place).clone();
-                    self.wrong(
-                        Mistake::new(place, format!("{name} has no state without loads: {error}"))
-                            .valid("growths nearer to 1"),
+                    return self.refused(
+                        place,
+                        format!("{name} has no state without loads: {error}"),
+                        "growths nearer to 1",
                     );
-                    return None;
                 }
             };
             if let Err(refusal) = held.stretch_at(pressure, stretch) {

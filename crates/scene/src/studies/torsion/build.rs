@@ -6,7 +6,6 @@ use piola_solutions::loads::Tube;
 use super::TwistedRod;
 use crate::model::Builder;
 use crate::studies::limits::{load_limit, reach};
-use piola_document::Mistake;
 use piola_document::Record;
 
 impl Builder<'_> {
@@ -28,26 +27,25 @@ impl Builder<'_> {
             if let Err(error) = end.state(0.0) {
                 let found = format!("the rod cannot be held so without twist: {error}");
                 let valid = if key == "axial_force" { "a force nearer to zero" } else { "a stretch nearer to 1" };
-                self.wrong(Mistake::new(table.place_of(key), found).valid(valid));
-                return None;
+                return self.refused(table.place_of(key), found, valid);
             }
             if let Err(error) = end.state(rod.twist) {
                 let most = reach((0.0, rod.twist), |twist| end.state(twist).is_ok());
-                self.wrong(
-                    Mistake::new(table.place_of("twist"), error.to_string())
-                        .valid(format!("a twist below {most:.6e} rad/m")),
+                return self.refused(
+                    table.place_of("twist"),
+                    error.to_string(),
+                    format!("a twist below {most:.6e} rad/m"),
                 );
-                return None;
             }
         }
         if let Some(torque) = rod.torque
             && let Err(error) = rod.pulled().states_at(torque, (0.0, rod.twist))
         {
-            self.wrong(
-                Mistake::new(table.place_of("torque"), format!("no state carries the torque: {error}"))
-                    .valid(load_limit(&error, "N m")),
+            return self.refused(
+                table.place_of("torque"),
+                format!("no state carries the torque: {error}"),
+                load_limit(&error, "N m"),
             );
-            return None;
         }
         Some(rod)
     }

@@ -4,7 +4,6 @@ use core::f64::consts::TAU;
 
 use super::{Medium, MediumPart, Source, Wavefront};
 use crate::model::Builder;
-use piola_document::Mistake;
 use piola_document::Record;
 use piola_simulation::fronts::MOST_RAYS;
 
@@ -12,9 +11,10 @@ impl Builder<'_> {
     pub(in crate::studies) fn wavefront(&mut self, scene: &Record, table: &Record) -> Option<Wavefront> {
         let records = scene.records("medium");
         if records.is_empty() && !scene.has("medium") {
-            self.wrong(
-                Mistake::new(table.place.clone(), "[wavefront] without a medium")
-                    .valid("at least one [[medium]], as type = \"uniform\""),
+            self.refuse(
+                table.place.clone(),
+                "[wavefront] without a medium",
+                "at least one [[medium]], as type = \"uniform\"",
             );
         }
         let parts: Vec<Option<MediumPart>> = records.iter().map(|record| self.medium_part(record)).collect();
@@ -26,17 +26,11 @@ impl Builder<'_> {
             let (spacing, most) = (table.number("spacing")?, MOST_RAYS as f64);
             let front = source.front(length, medium.index(source.middle()));
             if most * spacing < front {
-                self.wrong(
-                    Mistake::new(
-                        table.place_of("spacing"),
-                        format!(
-                            "a spacing of {spacing:e} m makes {:.1e} rays of a front of {front:.3} m",
-                            front / spacing
-                        ),
-                    )
-                    .valid(format!("at least {:.3e} m, for at most {MOST_RAYS} rays", front / most)),
+                return self.refused(
+                    table.place_of("spacing"),
+                    format!("a spacing of {spacing:e} m makes {:.1e} rays of a front of {front:.3} m", front / spacing),
+                    format!("at least {:.3e} m, for at most {MOST_RAYS} rays", front / most),
                 );
-                return None;
             }
         }
         Some(Wavefront {
@@ -56,11 +50,11 @@ impl Builder<'_> {
             let [u, v] = table.pair("direction")?;
             let size = u.hypot(v);
             if size <= 0.0 {
-                self.wrong(
-                    Mistake::new(table.place_of("direction"), "a direction of no length")
-                        .valid("two numbers that are not both zero"),
+                return self.refused(
+                    table.place_of("direction"),
+                    "a direction of no length",
+                    "two numbers that are not both zero",
                 );
-                return None;
             }
             return Some(Source::Plane {
                 middle: place,
@@ -73,11 +67,11 @@ impl Builder<'_> {
         if from < to && to - from <= TAU * (1.0 + 1e-12) {
             return Some(Source::Point { place, from, to });
         }
-        self.wrong(
-            Mistake::new(table.place_of("to"), format!("directions from {from} rad to {to} rad"))
-                .valid(format!("more than {from} rad, by at most a full turn")),
-        );
-        None
+        self.refused(
+            table.place_of("to"),
+            format!("directions from {from} rad to {to} rad"),
+            format!("more than {from} rad, by at most a full turn"),
+        )
     }
 
     fn medium_part(&mut self, record: &Record) -> Option<MediumPart> {
@@ -94,14 +88,11 @@ impl Builder<'_> {
             _ => {
                 let amplitude = record.number("amplitude")?;
                 if amplitude <= -1.0 {
-                    self.wrong(
-                        Mistake::new(
-                            record.place_of("amplitude"),
-                            format!("the amplitude {amplitude} makes the index {} at the centre", 1.0 + amplitude),
-                        )
-                        .valid("a number greater than -1"),
+                    return self.refused(
+                        record.place_of("amplitude"),
+                        format!("the amplitude {amplitude} makes the index {} at the centre", 1.0 + amplitude),
+                        "a number greater than -1",
                     );
-                    return None;
                 }
                 Some(MediumPart::Gaussian {
                     centre: record.pair("centre")?,

@@ -5,7 +5,7 @@ use piola_spectral::{Parity, Walls};
 use super::numbers::in_words;
 use crate::model::Builder;
 use crate::studies::boxes::{AXES, Form, Load, Start};
-use piola_document::{Mistake, Record, words};
+use piola_document::{Record, words};
 
 /// What the forms of a scene must fit.
 #[derive(Clone, Copy)]
@@ -37,11 +37,11 @@ impl Builder<'_> {
                 let [dimensions, key, other] =
                     if name == "point" { ["3", "force", "line"] } else { ["2", "force_per_length", "point"] };
                 if dimensions != D.to_string() {
-                    self.wrong(
-                        Mistake::new(record.place_of("type"), format!("a {name} load in a [box] of {D} sides"))
-                            .valid(format!("type = \"{other}\"")),
+                    return self.refused(
+                        record.place_of("type"),
+                        format!("a {name} load in a [box] of {D} sides"),
+                        format!("type = \"{other}\""),
                     );
-                    return None;
                 }
                 Form::Point { total: self.each_axis(record, key)?, at: self.place_in_box(record, frame.sides)? }
             }
@@ -53,11 +53,11 @@ impl Builder<'_> {
     fn span(&mut self, record: &Record, end: Option<f64>) -> Option<[f64; 2]> {
         let Some(end) = end else {
             if let Some(key) = ["from", "until", "course"].into_iter().find(|key| record.has(key)) {
-                self.wrong(
-                    Mistake::new(record.place_of(key), format!("`{key}` of a steady load"))
-                        .valid("nothing: only the loads of a motion change with time"),
+                return self.refused(
+                    record.place_of(key),
+                    format!("`{key}` of a steady load"),
+                    "nothing: only the loads of a motion change with time",
                 );
-                return None;
             }
             return Some([0.0, f64::INFINITY]);
         };
@@ -70,14 +70,11 @@ impl Builder<'_> {
             return Some([from, until]);
         }
         let key = if record.has("until") { "until" } else { "from" };
-        self.wrong(
-            Mistake::new(
-                record.place_of(key),
-                format!("the load ends at {} s and begins at {} s", words::number(until), words::number(from)),
-            )
-            .valid("an end after the beginning; without `until` it is the end of the motion"),
-        );
-        None
+        self.refused(
+            record.place_of(key),
+            format!("the load ends at {} s and begins at {} s", words::number(until), words::number(from)),
+            "an end after the beginning; without `until` it is the end of the motion",
+        )
     }
 
     /// The parts of the state at the start.
@@ -94,8 +91,7 @@ impl Builder<'_> {
             } else {
                 (record.place.clone(), "neither `displacement` nor `velocity`")
             };
-            self.wrong(Mistake::new(place, format!("a [[start]] with {what}")).valid("one of them in each [[start]]"));
-            return None;
+            return self.refused(place, format!("a [[start]] with {what}"), "one of them in each [[start]]");
         }
         let key = if is_velocity { "velocity" } else { "displacement" };
         Some(Start { form: self.form(record, record.text("type")?, key, frame)?, is_velocity })
@@ -111,14 +107,11 @@ impl Builder<'_> {
                 let radius = record.number("radius")?;
                 if radius < frame.spacing {
                     let (radius, spacing) = (words::number(radius), words::number(frame.spacing));
-                    self.wrong(
-                        Mistake::new(
-                            record.place_of("radius"),
-                            format!("the radius {radius} m is less than the spacing {spacing} m of the grid"),
-                        )
-                        .valid(format!("at least {spacing} m, or more `points`")),
+                    return self.refused(
+                        record.place_of("radius"),
+                        format!("the radius {radius} m is less than the spacing {spacing} m of the grid"),
+                        format!("at least {spacing} m, or more `points`"),
                     );
-                    return None;
                 }
                 Some(Form::Gaussian { value: value?, at: at?, radius })
             }
@@ -137,14 +130,11 @@ impl Builder<'_> {
         Frame { walls, highest, .. }: Frame<D>,
     ) -> Option<Form<D>> {
         if indices.iter().zip(highest).any(|(index, highest)| highest < *index) {
-            self.wrong(
-                Mistake::new(
-                    record.place_of("indices"),
-                    format!("the mode {} is beyond the highest, {}", in_words(&indices), in_words(&highest)),
-                )
-                .valid("a lower mode, or more `points` or `modes` of the [box]"),
+            return self.refused(
+                record.place_of("indices"),
+                format!("the mode {} is beyond the highest, {}", in_words(&indices), in_words(&highest)),
+                "a lower mode, or more `points` or `modes` of the [box]",
             );
-            return None;
         }
         for (component, amplitude) in amplitudes.iter().enumerate() {
             let vanishes = |axis: &usize| indices[*axis] == 0 && walls.parity(component, *axis) == Parity::Sine;
@@ -153,14 +143,11 @@ impl Builder<'_> {
             }
             if let Some(axis) = (0..D).find(vanishes) {
                 let (of, along) = (AXES[component], AXES[axis]);
-                self.wrong(
-                    Mistake::new(
-                        record.place_of("indices"),
-                        format!("the {of} component of the mode {} vanishes everywhere", in_words(&indices)),
-                    )
-                    .valid(format!("at least 1 along {along}, or the amplitude 0 of the {of} component")),
+                return self.refused(
+                    record.place_of("indices"),
+                    format!("the {of} component of the mode {} vanishes everywhere", in_words(&indices)),
+                    format!("at least 1 along {along}, or the amplitude 0 of the {of} component"),
                 );
-                return None;
             }
         }
         Some(Form::Mode { amplitudes, indices })

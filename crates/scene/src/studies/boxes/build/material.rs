@@ -4,7 +4,7 @@ use piola_spectral::LameParameters;
 
 use super::Lame;
 use crate::model::Builder;
-use piola_document::{Mistake, Record};
+use piola_document::Record;
 
 /// The two ways to state an elastic material.
 const PAIRS: [[&str; 2]; 2] = [["young_modulus", "poisson_ratio"], ["shear_modulus", "first_lame_parameter"]];
@@ -34,15 +34,14 @@ impl Builder<'_> {
                     None => (table.place.clone(), "an elastic [box] without a material".to_string()),
                 };
                 let valid = "`young_modulus` and `poisson_ratio`, or `first_lame_parameter` and `shear_modulus`";
-                self.wrong(Mistake::new(place, what).valid(valid));
-                None
+                self.refused(place, what, valid)
             }
         }
     }
 
     fn checked(&mut self, table: &Record, key: &str, made: Lame) -> Option<LameParameters> {
         made.map_err(|error| {
-            self.wrong(Mistake::new(table.place_of(key), error.to_string()).valid("a material that holds this bound"));
+            self.refuse(table.place_of(key), error.to_string(), "a material that holds this bound");
         })
         .ok()
     }

@@ -11,7 +11,7 @@ use crate::model::Builder;
 use crate::studies::boxes::plan::bytes_in_words;
 use forms::Frame;
 use numbers::in_words;
-use piola_document::{Mistake, Record, words};
+use piola_document::{Record, words};
 
 /// Instants of a motion, and steps of a flow.
 pub(super) const MOST_STEPS: f64 = 100_000.0;
@@ -32,8 +32,7 @@ impl Builder<'_> {
         let walls = if table.text("walls")? == "guided" { Walls::Guided } else { Walls::Sliding };
         let (sides, lame) = (sides?, lame?);
         if let Err(error) = Eigenbasis::new(sides, lame) {
-            self.wrong(Mistake::new(table.place_of("sides"), error.to_string()).valid("lengths within this bound"));
-            return None;
+            return self.refused(table.place_of("sides"), error.to_string(), "lengths within this bound");
         }
         let task = self.task(table, kind, sides);
         let probes = self.probes(scene, sides);
@@ -50,13 +49,11 @@ impl Builder<'_> {
         let starts = starts?;
         if fields.loads.is_empty() && starts.is_empty() {
             let what = if end.is_some() { "neither a [[load]] nor a [[start]]" } else { "no [[load]]" };
-            self.wrong(
-                Mistake::new(table.place.clone(), format!("a [box] of the type {kind} with {what}: nothing moves"))
-                    .valid(
-                        "a list of tables, [[load]], as type = \"uniform\" and force_per_volume = \"[0, −9.8] kN/m^3\"",
-                    ),
+            return self.refused(
+                table.place.clone(),
+                format!("a [box] of the type {kind} with {what}: nothing moves"),
+                "a list of tables, [[load]], as type = \"uniform\" and force_per_volume = \"[0, −9.8] kN/m^3\"",
             );
-            return None;
         }
         if let Task::Motion(task) = &mut fields.task {
             task.starts = starts;
@@ -71,11 +68,11 @@ impl Builder<'_> {
         if sides.iter().all(|side| 0.0 < *side) {
             return Some(sides);
         }
-        self.wrong(
-            Mistake::new(table.place_of("sides"), format!("sides of {} m", words::numbers(&sides)))
-                .valid("lengths greater than zero"),
-        );
-        None
+        self.refused(
+            table.place_of("sides"),
+            format!("sides of {} m", words::numbers(&sides)),
+            "lengths greater than zero",
+        )
     }
 
     fn task<const D: usize>(&mut self, table: &Record, kind: &str, sides: [f64; D]) -> Option<Task<D>> {
@@ -109,8 +106,7 @@ impl Builder<'_> {
                     SpectralError::TooFewPoints { least, .. } => format!("at least {least} along each axis"),
                     _ => "fewer points".to_string(),
                 };
-                self.wrong(Mistake::new(table.place_of("points"), error.to_string()).valid(valid));
-                None
+                self.refused(table.place_of("points"), error.to_string(), valid)
             }
         }
     }
@@ -121,25 +117,22 @@ impl Builder<'_> {
         if modes.iter().zip(most).all(|(index, most)| *index <= most) {
             return Some(modes);
         }
-        self.wrong(
-            Mistake::new(
-                table.place_of("modes"),
-                format!("modes up to {} are more than the grid can tell apart", in_words(&modes)),
-            )
-            .valid(format!("at most {}", in_words(&most))),
-        );
-        None
+        self.refused(
+            table.place_of("modes"),
+            format!("modes up to {} are more than the grid can tell apart", in_words(&modes)),
+            format!("at most {}", in_words(&most)),
+        )
     }
 
     fn motion<const D: usize>(&mut self, table: &Record) -> Option<MotionTask<D>> {
         let (density, drag) = (table.number("density"), table.number("drag"));
         let duration = table.number("duration");
         if !table.has("modes") {
-            self.wrong(
-                Mistake::new(table.place.clone(), "a [box] of the type motion lacks `modes`")
-                    .valid(format!("modes = the highest index along each axis, as {}", in_words(&[16; D]))),
+            return self.refused(
+                table.place.clone(),
+                "a [box] of the type motion lacks `modes`",
+                format!("modes = the highest index along each axis, as {}", in_words(&[16; D])),
             );
-            return None;
         }
         let modes = self.whole(table, "modes");
         let (density, drag, duration) = (density?, drag?, duration?);
@@ -152,11 +145,11 @@ impl Builder<'_> {
         if count <= MOST_STEPS {
             return Some(());
         }
-        self.wrong(
-            Mistake::new(table.place_of(key), format!("the duration has {count:.0} times the {key} in it"))
-                .valid(format!("at most {MOST_STEPS} times")),
-        );
-        None
+        self.refused(
+            table.place_of(key),
+            format!("the duration has {count:.0} times the {key} in it"),
+            format!("at most {MOST_STEPS} times"),
+        )
     }
 
     fn probes<const D: usize>(&mut self, scene: &Record, sides: [f64; D]) -> Option<Vec<Probe<D>>> {
@@ -170,9 +163,10 @@ impl Builder<'_> {
 
     fn foreign_start(&mut self, scene: &Record, kind: &str) {
         if kind != "motion" && scene.has("start") {
-            self.wrong(
-                Mistake::new(scene.place_of("start"), format!("[[start]] in a [box] of the type {kind}"))
-                    .valid("nothing: only a motion starts from a state"),
+            self.refuse(
+                scene.place_of("start"),
+                format!("[[start]] in a [box] of the type {kind}"),
+                "nothing: only a motion starts from a state",
             );
         }
     }
@@ -183,11 +177,11 @@ impl Builder<'_> {
         if count <= MOST_PLACES {
             return Some(());
         }
-        self.wrong(
-            Mistake::new(scene.place_of("probe"), format!("{count:.0} displacements over all instants and probes"))
-                .valid(format!("at most {MOST_PLACES}: fewer probes, or a longer `interval`")),
-        );
-        None
+        self.refused(
+            scene.place_of("probe"),
+            format!("{count:.0} displacements over all instants and probes"),
+            format!("at most {MOST_PLACES}: fewer probes, or a longer `interval`"),
+        )
     }
 
     fn fits_into_memory<const D: usize>(&mut self, table: &Record, fields: &BoxFields<D>) -> Option<()> {
@@ -201,11 +195,11 @@ impl Builder<'_> {
         } else {
             format!("{} points take", words::numbers(table.numbers("points").unwrap_or_default()))
         };
-        self.wrong(
-            Mistake::new(table.place_of(key), format!("{what} {} of memory", bytes_in_words(bytes)))
-                .valid(format!("at most {}", bytes_in_words(MOST_BYTES))),
-        );
-        None
+        self.refused(
+            table.place_of(key),
+            format!("{what} {} of memory", bytes_in_words(bytes)),
+            format!("at most {}", bytes_in_words(MOST_BYTES)),
+        )
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::model::Builder;
 use crate::studies::boxes::AXES;
-use piola_document::{Mistake, Record, words};
+use piola_document::{Record, words};
 
 /// More points or modes than this along an axis have no use.
 const MOST: f64 = 1e9;
@@ -14,9 +14,10 @@ impl Builder<'_> {
         let found: Option<[f64; D]> = numbers.try_into().ok();
         if found.is_none() {
             let count = numbers.len();
-            self.wrong(
-                Mistake::new(record.place_of(key), format!("`{key}` has {count} numbers in a [box] of {D} sides"))
-                    .valid(format!("a list of {D} numbers")),
+            self.refuse(
+                record.place_of(key),
+                format!("`{key}` has {count} numbers in a [box] of {D} sides"),
+                format!("a list of {D} numbers"),
             );
         }
         found
@@ -30,11 +31,11 @@ impl Builder<'_> {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, from 0 to 1e9")]
             return Some(numbers.map(|x| x as usize));
         }
-        self.wrong(
-            Mistake::new(record.place_of(key), format!("`{key}` is {}", words::numbers(&numbers)))
-                .valid("whole numbers that are not negative"),
-        );
-        None
+        self.refused(
+            record.place_of(key),
+            format!("`{key}` is {}", words::numbers(&numbers)),
+            "whole numbers that are not negative",
+        )
     }
 
     /// The place `at` of a table, which must be in the box.
@@ -43,14 +44,11 @@ impl Builder<'_> {
         let Some(axis) = (0..D).find(|&axis| !(0.0..=sides[axis]).contains(&place[axis])) else {
             return Some(place);
         };
-        self.wrong(
-            Mistake::new(
-                record.place_of("at"),
-                format!("{} = {} m is outside of the box", AXES[axis], words::number(place[axis])),
-            )
-            .valid(format!("from 0 m to {} m along {}", words::number(sides[axis]), AXES[axis])),
-        );
-        None
+        self.refused(
+            record.place_of("at"),
+            format!("{} = {} m is outside of the box", AXES[axis], words::number(place[axis])),
+            format!("from 0 m to {} m along {}", words::number(sides[axis]), AXES[axis]),
+        )
     }
 }
 
