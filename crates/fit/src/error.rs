@@ -122,6 +122,12 @@ pub enum FitError {
         /// Its value.
         value: f64,
     },
+    /// A rate of a flow is not positive and finite.
+    #[error("the rate of the flow is {value}; it must be positive and finite")]
+    RateNotPositive {
+        /// The rate, 1/s.
+        value: f64,
+    },
     /// A law of foam or fibres has a name that is not known.
     #[error("no law of foam or fibres is called `{name}`; they are hyperfoam:n and holzapfel-gasser-ogden")]
     UnknownSidesModel {

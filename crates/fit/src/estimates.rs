@@ -28,8 +28,13 @@ pub(crate) fn estimates(
     let points: usize = series.iter().map(|residuals| residuals.len()).sum();
     let squares: f64 = series.iter().flat_map(|residuals| residuals.iter()).map(|r| r * r).sum();
     let at_bound = |k: usize| {
-        let near = |bound: f64| bound.is_finite() && (theta[k] - bound).abs() <= 1e-7 * bound.abs().max(1e-3);
-        ranges[k].is_fixed() || ranges[k].bounds.into_iter().any(near)
+        let Range { bounds: [low, high], least } = ranges[k];
+        let near = |bound: f64| {
+            let width =
+                if (high - low).is_finite() { 1e-8 * (high - low) } else { (1e-7 * bound.abs()).max(0.1 * least) };
+            bound.is_finite() && (theta[k] - bound).abs() <= width
+        };
+        ranges[k].is_fixed() || near(low) || near(high)
     };
     let free: Vec<usize> = (0..theta.len()).filter(|&k| !at_bound(k)).collect();
     let degrees_of_freedom = points - free.len();
@@ -40,15 +45,17 @@ pub(crate) fn estimates(
     let quantile = student(confidence, degrees_of_freedom).map(|t| t * widening);
     let covariance = Covariance::new(slopes, &free, variance);
     let estimate = |(k, (name, is_stress)): (usize, &(String, bool))| {
-        let state = match covariance.parameters.contains(&k) {
+        let standard_error = covariance.standard_error(k).filter(|_| has_errors);
+        let half = standard_error.zip(quantile).map(|(error, quantile)| quantile * error);
+        let is_lost = half.is_some_and(|half| widest(theta[k], ranges[k].bounds) <= half);
+        let state = match covariance.parameters.contains(&k) && !is_lost {
             true if has_errors => State::Determined,
             true => State::NoDegreesOfFreedom,
             false if free.contains(&k) => State::Undetermined,
             false => State::AtBound,
         };
-        let standard_error = covariance.standard_error(k).filter(|_| has_errors);
-        let half = standard_error.zip(quantile).map(|(error, quantile)| quantile * error);
-        let interval = half.map(|half| interval(theta[k], ranges[k].bounds, half));
+        let standard_error = standard_error.filter(|_| !is_lost);
+        let interval = half.filter(|_| !is_lost).map(|half| interval(theta[k], ranges[k].bounds, half));
         SolidParameter { name: name.clone(), is_stress: *is_stress, value: theta[k], standard_error, interval, state }
     };
     Estimates {
@@ -56,6 +63,19 @@ pub(crate) fn estimates(
         degrees_of_freedom,
         criteria: Criteria::new(points, free.len(), squares),
         autocorrelation,
+    }
+}
+
+/// The half width of an interval beyond which data do not tell the order of magnitude of the distance to a single bound, nor where in
+/// a range between two bounds a parameter is.
+fn widest(value: f64, [low, high]: [f64; 2]) -> f64 {
+    /// Of the logarithm of the distance: four orders of magnitude.
+    const LOST: f64 = 9.2;
+    match (low.is_finite(), high.is_finite()) {
+        (true, true) => high - low,
+        (true, false) => LOST * (value - low),
+        (false, true) => LOST * (high - value),
+        (false, false) => f64::INFINITY,
     }
 }
 

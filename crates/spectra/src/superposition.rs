@@ -74,10 +74,11 @@ pub struct CurveShift {
 ///
 /// # Errors
 /// As [`horizontal_shifts`]; [`SpectraError::StraightCurves`] where neighbours overlap along straight lines of one slope only, which slide
-/// along themselves; [`SpectraError::WrongLength`] unless every temperature has as many curves as the first.
+/// along themselves: the shifts whose variance is at most four times the least reach over more than half of those tried; [`SpectraError::WrongLength`] unless every temperature has as many curves as the first.
 ///
 /// # Accuracy
-/// As [`horizontal_shifts`], over the difference of slopes along the curves instead of the slope.
+/// As [`horizontal_shifts`], over the difference of slopes along the curves instead of the slope. Noise of the moduli scatters ln bₜ
+/// likewise.
 ///
 /// # Example
 /// ```
@@ -151,52 +152,53 @@ fn logarithms(curve: &IsothermalCurve<'_>) -> Result<Vec<[f64; 2]>, SpectraError
     Ok(frequencies.iter().zip(moduli).map(|(w, y)| [w.ln(), y.ln()]).collect())
 }
 
-/// ln y of a curve at ln ω between its points, and the slope there; `None` outside.
-fn between(curve: &[[f64; 2]], at: f64) -> Option<[f64; 2]> {
+/// ln y of a curve at ln ω between its points; `None` outside.
+fn between(curve: &[[f64; 2]], at: f64) -> Option<f64> {
     let next = curve.partition_point(|point| point[0] < at).max(1);
     let ([x0, y0], [x, y]) = (curve[next - 1], *curve.get(next)?);
     let slope = (y - y0) / (x - x0);
-    (x0 <= at).then_some([y0 + slope * (at - x0), slope])
+    (x0 <= at).then_some(y0 + slope * (at - x0))
 }
 
-/// What is left between curves at a shift: number, mean and mean square of ln y − ln yₙ, and the variance of the slope along them.
+/// What is left between curves at a shift: number, mean and mean square of ln y − ln yₙ.
 #[derive(Clone, Copy)]
 struct Gap {
     count: usize,
     mean: f64,
     mean_square: f64,
-    slopes: f64,
 }
 
 fn gap(fixed: &[Vec<[f64; 2]>], moved: &[Vec<[f64; 2]>], shift: f64) -> Gap {
-    let (mut count, mut sums) = (0_usize, [0.0; 4]);
-    let mut add = |difference: f64, slope: f64| {
+    let (mut count, mut sums) = (0_usize, [0.0; 2]);
+    let mut add = |difference: f64| {
         count += 1;
-        for (sum, term) in sums.iter_mut().zip([difference, difference * difference, slope, slope * slope]) {
+        for (sum, term) in sums.iter_mut().zip([difference, difference * difference]) {
             *sum += term;
         }
     };
     for (fixed, moved) in fixed.iter().zip(moved) {
         for &[x, y] in moved {
-            if let Some([there, slope]) = between(fixed, x + shift) {
-                add(there - y, slope);
+            if let Some(there) = between(fixed, x + shift) {
+                add(there - y);
             }
         }
         for &[x, y] in fixed {
-            if let Some([there, slope]) = between(moved, x - shift) {
-                add(y - there, slope);
+            if let Some(there) = between(moved, x - shift) {
+                add(y - there);
             }
         }
     }
-    let [mean, mean_square, slope, slopes] = sums.map(|sum| sum / count as f64);
-    Gap { count, mean, mean_square, slopes: slopes - slope * slope }
+    let [mean, mean_square] = sums.map(|sum| sum / count as f64);
+    Gap { count, mean, mean_square }
 }
 
 /// The shift that lays `moved` over `fixed`, curve by curve.
 fn overlap([fixed, moved]: [&[Vec<[f64; 2]>]; 2], vertical: bool, first: usize) -> Result<CurveShift, SpectraError> {
     const STEPS: u32 = 400;
-    /// Variance of slopes below which curves count as straight lines of one slope.
-    const STRAIGHT: f64 = 1e-6;
+    /// Shifts with a misfit of at most this times the least fit about as well.
+    const AS_WELL: f64 = 4.0;
+    /// A variance of ln y that is rounding of its squares.
+    const ROUNDING: f64 = 1e-12;
     let apart = SpectraError::NoOverlap { first, second: first + 1 };
     let widen = |ends: [f64; 2], value: f64| [ends[0].min(value), ends[1].max(value)];
     let range = |curves: &[Vec<[f64; 2]>], axis: usize| {
@@ -223,10 +225,19 @@ fn overlap([fixed, moved]: [&[Vec<[f64; 2]>]; 2], vertical: bool, first: usize) 
     let ([start, end], [from, to]) = (range(fixed, 0), range(moved, 0));
     let (low, high) = (start - to, end - from);
     let step = (high - low) / f64::from(STEPS);
-    let grid = (0..=STEPS).map(|k| low + step * f64::from(k));
-    let best = grid.min_by(|&a, &b| misfit(a).total_cmp(&misfit(b))).unwrap_or(0.0);
-    if !misfit(best).is_finite() {
+    let grid = (0..=STEPS).map(|k| low + step * f64::from(k)).map(|shift| [shift, misfit(shift)]);
+    let tried: Vec<[f64; 2]> = grid.filter(|[_, misfit]| misfit.is_finite()).collect();
+    let Some([best, least_misfit]) = tried.iter().copied().min_by(|a, b| a[1].total_cmp(&b[1])) else {
         return Err(apart);
+    };
+    // Straight lines of one slope slide along themselves: their valley is as long as the search, whatever the noise.
+    let length = |largest: f64| {
+        let within = tried.iter().filter(|[_, misfit]| *misfit <= largest);
+        let [from, to] = within.fold([best; 2], |ends, [shift, _]| widen(ends, *shift));
+        to - from
+    };
+    if vertical && 0.5 * length(f64::INFINITY) < length(AS_WELL * least_misfit + ROUNDING) {
+        return Err(SpectraError::StraightCurves { first, second: first + 1 });
     }
     // Golden section about the best point of the grid.
     let share = 0.5 * (5.0_f64.sqrt() - 1.0);
@@ -235,11 +246,10 @@ fn overlap([fixed, moved]: [&[Vec<[f64; 2]>]; 2], vertical: bool, first: usize) 
         let (left, right) = (b - share * (b - a), a + share * (b - a));
         if misfit(left) <= misfit(right) { b = right } else { a = left }
     }
-    let ln_horizontal = 0.5 * (a + b);
-    let Gap { mean, slopes, .. } = gap(fixed, moved, ln_horizontal);
-    if vertical && slopes < STRAIGHT {
-        return Err(SpectraError::StraightCurves { first, second: first + 1 });
-    }
+    // Where too few points overlap beside a narrow window the section may have left it.
+    let middle = 0.5 * (a + b);
+    let ln_horizontal = if misfit(middle) <= least_misfit { middle } else { best };
+    let Gap { mean, .. } = gap(fixed, moved, ln_horizontal);
     Ok(CurveShift { ln_horizontal, ln_vertical: if vertical { mean } else { 0.0 } })
 }
 

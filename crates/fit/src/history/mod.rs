@@ -39,7 +39,7 @@ pub struct HistoryOptions {
     pub control: StepControl,
     /// The probability of the intervals.
     pub confidence: f64,
-    /// Evaluations of the search, for each unknown.
+    /// Evaluations of the search, for each unknown, besides those of derivatives.
     pub patience: usize,
 }
 
@@ -125,8 +125,9 @@ impl HistoryFit {
 /// such as [`FitError::NoHistory`].
 ///
 /// # Accuracy
-/// Derivatives are central differences of the stresses over 1e-5 of a parameter. Data without errors give their parameters back to 1e-8,
-/// if they tell them and `control` is that of the data or the error that it allows is small.
+/// Derivatives are central differences of the stresses over 1e-5 of a parameter; over 10⁵ times the tolerance of `control`, at most 1e-2,
+/// if that is more. Data without errors give their parameters back to 1e-8, if they tell them and `control` is that of the data or the
+/// error that it allows is small.
 ///
 /// # Example
 /// A block is sheared by ½ at once and held: the shear stress of Reese and Govindjee's law relaxes from 1.5 to ½ Pa.
@@ -180,7 +181,14 @@ pub fn fit_history(
     let names: Vec<(String, bool)> =
         parameters.iter().map(|(name, is_stress, _)| ((*name).to_owned(), *is_stress)).collect();
     let own = parameters.iter().map(|(_, _, bounds)| Range { bounds: *bounds, least: 1e-9 }).collect();
-    let ranges = narrowed(&model.name(), &names, own, &options.bounds)?;
+    let mut ranges = narrowed(&model.name(), &names, own, &options.bounds)?;
+    for (range, value) in ranges.iter_mut().zip(start) {
+        // The start tells the size of a parameter, and so what is near its bound.
+        let distance = range.bounds.into_iter().map(|bound| (value - bound).abs()).fold(f64::INFINITY, f64::min);
+        if 0.0 < distance && distance.is_finite() {
+            range.least = (1e-9 * distance).max(f64::MIN_POSITIVE);
+        }
+    }
     let searched: Vec<usize> = (0..ranges.len()).filter(|&k| !ranges[k].is_fixed()).collect();
     let points = tests.iter().map(|test| test.rows().len()).sum();
     if points < searched.len() {
@@ -195,8 +203,8 @@ pub fn fit_history(
     let Some(end) = minimise(walk, x, options.patience.clamp(1, 1_000_000), &|| false) else {
         return Err(FitError::NoStart { model: model.name() });
     };
-    let (theta, residuals) = (end.misfit.parameters, end.state);
-    let slopes = problem.slopes(&theta, &searched);
+    let (theta, (x, residuals)) = (end.misfit.parameters, end.state);
+    let slopes = problem.slopes(&theta, &searched, &x, &residuals);
     let mut rest = residuals.as_slice();
     let (mut series, mut found) = (Vec::new(), Vec::new());
     for test in tests {
@@ -234,9 +242,6 @@ struct Problem<'a> {
     evaluations: Cell<usize>,
 }
 
-/// The step of a difference in the unbounded coordinate of a parameter: of a positive one its share.
-const STEP: f64 = 1e-5;
-
 impl Problem<'_> {
     /// Residuals over their scales.
     fn residuals(&self, theta: &[f64]) -> Result<Vec<f64>, FitError> {
@@ -254,33 +259,49 @@ impl Problem<'_> {
         Ok(residuals)
     }
 
-    /// The residuals with a parameter moved by a step of its coordinate.
-    fn moved(&self, theta: &[f64], k: usize, step: f64) -> Option<Vec<f64>> {
+    /// The step of a difference in the unbounded coordinate of a parameter, of a positive one its share; and the change of a residual
+    /// that counts as the error of the integration. Their quotient is at most 1e-4.
+    fn step(&self) -> [f64; 2] {
+        let error = self.control.tolerance().map_or(1e-12, |tolerance| (10.0 * tolerance).max(1e-12));
+        let step = (1e4 * error).clamp(1e-5, 1e-2);
+        [step, error.min(1e-4 * step)]
+    }
+
+    /// The residuals with a parameter at another coordinate.
+    fn moved(&self, theta: &[f64], k: usize, x: f64) -> Option<Vec<f64>> {
         let mut moved = theta.to_vec();
-        moved[k] = self.ranges[k].outward(self.ranges[k].inward(theta[k]) + step)[0];
+        moved[k] = self.ranges[k].outward(x)[0];
         self.residuals(&moved).ok()
     }
 
-    /// Derivatives of the residuals by the coordinates of the searched parameters, in columns.
-    fn by_coordinates(&self, theta: &[f64], searched: &[usize]) -> DMatrix<f64> {
+    /// Derivatives of the residuals by the coordinates x of the searched parameters, in columns.
+    fn by_coordinates(&self, theta: &[f64], searched: &[usize], x: &[f64], residuals: &[f64]) -> DMatrix<f64> {
+        let [step, error] = self.step();
         let mut slopes = DMatrix::zeros(self.points, searched.len());
-        for (column, &k) in searched.iter().enumerate() {
-            // Where the law answers on neither side the derivative is zero, and the search does not move that parameter.
-            if let (Some(up), Some(down)) = (self.moved(theta, k, STEP), self.moved(theta, k, -STEP)) {
-                for (row, (up, down)) in up.iter().zip(down).enumerate() {
-                    slopes[(row, column)] = (up - down) / (2.0 * STEP);
-                }
+        for (column, (&k, &x)) in searched.iter().zip(x).enumerate() {
+            let here = || residuals.to_vec();
+            // Where the law answers on one side only, the difference from here; on neither, the search does not move the parameter.
+            let (up, down, width) = match (self.moved(theta, k, x + step), self.moved(theta, k, x - step)) {
+                (Some(up), Some(down)) => (up, down, 2.0 * step),
+                (Some(up), None) => (up, here(), step),
+                (None, Some(down)) => (here(), down, step),
+                (None, None) => continue,
+            };
+            for (row, (up, down)) in up.iter().zip(down).enumerate() {
+                let change = up - down;
+                // What the integration leaves is no slope: it would seem to determine a parameter of exact data.
+                slopes[(row, column)] = if change.abs() <= error { 0.0 } else { change / width };
             }
         }
         slopes
     }
 
     /// Derivatives by all parameters; zero of those that are held.
-    fn slopes(&self, theta: &[f64], searched: &[usize]) -> DMatrix<f64> {
-        let found = self.by_coordinates(theta, searched);
+    fn slopes(&self, theta: &[f64], searched: &[usize], x: &[f64], residuals: &[f64]) -> DMatrix<f64> {
+        let found = self.by_coordinates(theta, searched, x, residuals);
         let mut slopes = DMatrix::zeros(self.points, theta.len());
-        for (column, &k) in searched.iter().enumerate() {
-            let rate = self.ranges[k].outward(self.ranges[k].inward(theta[k]))[1];
+        for (column, (&k, &x)) in searched.iter().zip(x).enumerate() {
+            let rate = self.ranges[k].outward(x)[1];
             slopes.set_column(k, &(found.column(column) / rate));
         }
         slopes
@@ -295,25 +316,26 @@ struct Walk<'p, 'a> {
 }
 
 impl Misfit for Walk<'_, '_> {
-    type State = Vec<f64>;
+    /// The coordinates and the residuals there.
+    type State = (Vec<f64>, Vec<f64>);
 
     fn rows(&self) -> usize {
         self.problem.points
     }
 
-    fn visit(&mut self, x: &[f64]) -> Option<Vec<f64>> {
+    fn visit(&mut self, x: &[f64]) -> Option<Self::State> {
         for (&k, &x) in self.searched.iter().zip(x) {
             self.parameters[k] = self.problem.ranges[k].outward(x)[0];
         }
         let residuals = self.problem.residuals(&self.parameters).ok()?;
-        residuals.iter().all(|x| x.is_finite()).then_some(residuals)
+        residuals.iter().all(|x| x.is_finite()).then(|| (x.to_vec(), residuals))
     }
 
-    fn residuals<'s>(&self, residuals: &'s Vec<f64>) -> &'s [f64] {
+    fn residuals<'s>(&self, (_, residuals): &'s Self::State) -> &'s [f64] {
         residuals
     }
 
-    fn jacobian(&self, _residuals: &Vec<f64>, _x: &[f64]) -> DMatrix<f64> {
-        self.problem.by_coordinates(&self.parameters, self.searched)
+    fn jacobian(&self, (_, residuals): &Self::State, x: &[f64]) -> DMatrix<f64> {
+        self.problem.by_coordinates(&self.parameters, self.searched, x, residuals)
     }
 }

@@ -60,16 +60,17 @@ impl NonlinearData {
     /// From rows in any order; they are sorted by their drive.
     ///
     /// # Errors
-    /// [`FitError::RowNotPositive`] for a drive, a response or a rate of the flow that is not positive and finite.
+    /// [`FitError::RateNotPositive`]; [`FitError::RowNotPositive`] for a drive or a response that is not positive and finite.
     pub fn new(flow: NonlinearFlow, mut rows: Vec<[f64; 2]>) -> Result<Self, FitError> {
+        let holds = |value: f64| 0.0 < value && value.is_finite();
         let check = |row: usize, quantity: &'static str, value: f64| {
-            let holds = 0.0 < value && value.is_finite();
-            if holds { Ok(()) } else { Err(FitError::RowNotPositive { row, quantity, value }) }
+            if holds(value) { Ok(()) } else { Err(FitError::RowNotPositive { row, quantity, value }) }
         };
         if let NonlinearFlow::ShearStartUp { shear_rate: rate, .. } | NonlinearFlow::ExtensionStartUp { rate, .. } =
             flow
+            && !holds(rate)
         {
-            check(0, "rate of the flow", rate)?;
+            return Err(FitError::RateNotPositive { value: rate });
         }
         for (row, &[drive, response]) in rows.iter().enumerate() {
             check(row, "drive", drive)?;

@@ -154,7 +154,7 @@ fn fitted_parameters_of_tests_with_free_sides_equal_those_that_made_them() -> Fa
 }
 
 #[test]
-fn intervals_hold_the_parameters_of_data_with_errors() -> Fallible {
+fn parameters_of_noisy_data_are_within_four_standard_errors() -> Fallible {
     let (model, made, tests) = golden_tests("ogden-roxburgh")?;
     let mut random = Random::new(7);
     let rows: Vec<[f64; 3]> =
@@ -164,6 +164,80 @@ fn intervals_hold_the_parameters_of_data_with_errors() -> Fallible {
     for (k, parameter) in fit.parameters.iter().enumerate().filter(|(k, _)| *k != 1) {
         let error = parameter.standard_error.ok_or("a standard error")?;
         assert!(0.0 < error && (parameter.value - made[k]).abs() < 4.0 * error, "{parameter:?}");
+    }
+    Ok(())
+}
+
+/// Stress = p · stretch, with any bounds: the fit is linear in p.
+struct Linear([f64; 2]);
+
+impl HistoryModel for Linear {
+    fn name(&self) -> String {
+        "linear".to_owned()
+    }
+    fn parameters(&self) -> Vec<HistoryParameter> {
+        vec![("modulus", true, self.0)]
+    }
+    fn stresses(&self, p: &[f64], test: &HistoryTest, _control: &StepControl) -> Result<Vec<f64>, FitError> {
+        Ok(test.rows().iter().map(|row| p[0] * row[1]).collect())
+    }
+}
+
+/// The first step of the search leaves the principal branch of the coordinate.
+#[test]
+fn starts_near_an_end_of_a_range_come_to_the_minimum() -> Fallible {
+    let cases = [
+        ([0.0, 1.0], 0.95, 0.05),
+        ([0.0, 1.0], 0.05, 0.95),
+        ([0.0, 1.0], 0.5, 0.0),
+        ([0.0, 1.0], 0.3, 1.0),
+        ([-1.0, 0.0], -0.5, -0.01),
+        ([0.0, 10.0], 8.0, 0.5),
+        // One bound, and values far below the usual ones.
+        ([0.0, f64::INFINITY], 3e-13, 1e-12),
+        ([0.0, f64::INFINITY], 3e-13, 1e-9),
+        ([f64::NEG_INFINITY, 0.0], -3e-13, -1e-12),
+        ([f64::NEG_INFINITY, f64::INFINITY], -4.0, 3.0),
+    ];
+    for (bounds, made, start) in cases {
+        let rows: Vec<[f64; 3]> = (1..9).map(f64::from).map(|k| [k, 0.1 * k, 0.1 * k * made]).collect();
+        let test = HistoryTest::new("t", Loading::SimpleShear, &rows)?;
+        let fit = fit_history(&Linear(bounds), &[test], &[start], &HistoryOptions::default())?;
+        assert!(fit.outcome.is_converged(), "{bounds:?}, {start}: {:?}", fit.outcome);
+        assert_close(&format!("{bounds:?} from {start}"), &fit.values(), &[made], FOUND);
+        assert_eq!(fit.parameters[0].state, State::Determined, "{bounds:?} from {start}");
+    }
+    // Beyond the end of a range, at that end.
+    let rows: Vec<[f64; 3]> = (1..9).map(f64::from).map(|k| [k, 0.1 * k, -0.1 * k]).collect();
+    let test = HistoryTest::new("t", Loading::SimpleShear, &rows)?;
+    let fit = fit_history(&Linear([0.0, 1.0]), &[test], &[0.3], &HistoryOptions::default())?;
+    assert!(fit.values()[0] < 1e-8 && fit.parameters[0].state == State::AtBound, "{:?}", fit.parameters);
+    Ok(())
+}
+
+/// In a shear the volume stays: the tests say nothing of λ, whatever the tolerance of the integration leaves.
+#[test]
+fn parameters_that_tests_do_not_tell_are_undetermined() -> Fallible {
+    let (model, made, tests) = golden_tests("reese-govindjee")?;
+    for control in [StepControl::new(1e-7)?, StepControl::one_step()] {
+        let exact = of_model(model, &made, &tests, &control)?;
+        let mut random = Random::new(3);
+        let noisy = |test: &HistoryTest| {
+            let rows: Vec<[f64; 3]> =
+                test.rows().iter().map(|row| [row[0], row[1], row[2] * (1.0 + 1e-2 * random.symmetric())]).collect();
+            HistoryTest::new(test.name(), test.loading(), &rows)
+        };
+        let noisy: Vec<HistoryTest> = exact.iter().map(noisy).collect::<Result<_, _>>()?;
+        for tests in [exact, noisy] {
+            let options = HistoryOptions::default().with_control(control);
+            let fit = fit_history(&model, &tests, &made, &options)?;
+            let told = |name: &str| fit.parameters.iter().find(|parameter| parameter.name == name);
+            let shear = told("shear_modulus").ok_or("μ")?;
+            assert_eq!(shear.state, State::Determined, "{control:?}: {:?}", fit.parameters);
+            let lame = told("first_lame_parameter").ok_or("λ")?;
+            assert_eq!(lame.state, State::Undetermined, "{control:?}: {:?}", fit.parameters);
+            assert_eq!((lame.standard_error, lame.interval), (None, None));
+        }
     }
     Ok(())
 }

@@ -254,7 +254,7 @@ fn impossible_flows_and_unknown_fluids_are_refused_by_name() -> Result<(), FitEr
     assert_eq!(refused, "row 1: the drive is NaN; it must be positive and finite");
     let flow = NonlinearFlow::ExtensionStartUp { extension: Extension::Planar, rate: -1.0 };
     let refused = NonlinearData::new(flow, vec![]).expect_err("a negative rate").to_string();
-    assert_eq!(refused, "row 0: the rate of the flow is -1; it must be positive and finite");
+    assert_eq!(refused, "the rate of the flow is -1; it must be positive and finite");
     let few = NonlinearData::new(steady, vec![[1.0, 2.0]])?;
     let refused = fit_nonlinear(NonlinearModel::Giesekus, &[few], &Options::default()).expect_err("few").to_string();
     assert_eq!(refused, "giesekus: too few measured points (1) for the number of parameters (4)");

@@ -74,7 +74,7 @@ pub fn prony(program: Program, spectrum: &RelaxationSpectrum) -> Result<String, 
         _ => {
             return Err(MeasuredError::Argument {
                 argument: format!("--card of {program} with {} modes", terms.len()),
-                valid: "abaqus, ansys, ls-dyna with --bulk-modulus and --density, or febio with at most six modes (--modes 6)",
+                valid: "abaqus, ansys, ls-dyna with --bulk-modulus and --density, or febio with at most six modes (--modes 6; --modes 5 for creep of a liquid)",
             });
         }
     }

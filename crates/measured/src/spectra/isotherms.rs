@@ -12,12 +12,26 @@ const TOLD: f64 = 0.05;
 /// K at 0 °C.
 const ICE: f64 = 273.15;
 
-/// Rows by temperature, in the order in which they were measured, with notes on what is fitted together. The error is a range of
-/// temperatures, K, in which no isotherms can be told apart.
-pub(super) fn grouped(
-    rows: &[(Option<f64>, ResponseRow)],
-    response: Response,
-) -> Result<(Vec<Isotherm>, Vec<String>), [f64; 2]> {
+/// An isotherm that is not yet sorted.
+pub(super) struct Group {
+    /// With the rows in the order in which they were given.
+    pub(super) isotherm: Isotherm,
+    /// The places of the rows.
+    pub(super) places: Vec<usize>,
+    /// A note on temperatures that are merged.
+    pub(super) merged: Option<String>,
+}
+
+impl Group {
+    /// The isotherm, with its rows sorted.
+    pub(super) fn sorted(mut self) -> Isotherm {
+        self.isotherm.rows.sort_by(|a, b| a.at.total_cmp(&b.at));
+        self.isotherm
+    }
+}
+
+/// Rows by temperature, the lowest first. The error is a range of temperatures, K, in which no isotherms can be told apart.
+pub(super) fn grouped(rows: &[(Option<f64>, ResponseRow)]) -> Result<Vec<Group>, [f64; 2]> {
     // Stable: rows of one temperature stay in their order.
     let mut order: Vec<(Option<f64>, usize)> = rows.iter().enumerate().map(|(k, row)| (row.0, k)).collect();
     order.sort_by(|a, b| a.0.unwrap_or(0.0).total_cmp(&b.0.unwrap_or(0.0)));
@@ -35,11 +49,11 @@ pub(super) fn grouped(
         }
         last = Some(temperature);
     }
-    let (mut isotherms, mut notes) = (Vec::new(), Vec::new());
-    for mut group in groups {
-        group.sort_unstable();
-        let mut temperature = None;
-        let told: Vec<f64> = group.iter().filter_map(|&k| rows[k].0).collect();
+    let mut found = Vec::new();
+    for mut places in groups {
+        places.sort_unstable();
+        let (mut temperature, mut merged) = (None, None);
+        let told: Vec<f64> = places.iter().filter_map(|&k| rows[k].0).collect();
         if let (Some(low), Some(high)) = (told.iter().copied().reduce(f64::min), told.iter().copied().reduce(f64::max))
         {
             if WANDERING < high - low {
@@ -48,7 +62,7 @@ pub(super) fn grouped(
             let mean = if low < high { told.iter().sum::<f64>() / told.len() as f64 } else { low };
             temperature = Some(mean);
             if TOLD < high - low {
-                notes.push(format!(
+                merged = Some(format!(
                     "temperatures from {:.2} to {:.2} °C are one isotherm at their mean, {:.2} °C",
                     low - ICE,
                     high - ICE,
@@ -56,23 +70,19 @@ pub(super) fn grouped(
                 ));
             }
         }
-        let of: Vec<ResponseRow> = group.iter().map(|&k| rows[k].1).collect();
-        notes.extend(told_of(&of, temperature, response));
-        isotherms.push(Isotherm { temperature, rows: of });
+        let of: Vec<ResponseRow> = places.iter().map(|&k| rows[k].1).collect();
+        found.push(Group { isotherm: Isotherm { temperature, rows: of }, places, merged });
     }
-    for isotherm in &mut isotherms {
-        isotherm.rows.sort_by(|a, b| a.at.total_cmp(&b.at));
-    }
-    Ok((isotherms, notes))
+    Ok(found)
 }
 
 /// Sweeps both ways, or abscissas that are measured more than once.
-fn told_of(rows: &[ResponseRow], temperature: Option<f64>, response: Response) -> Option<String> {
+pub(super) fn told_of(Isotherm { temperature, rows }: &Isotherm, response: Response) -> Option<String> {
     let at = temperature.map_or_else(String::new, |t| format!("at {:.1} °C ", t - ICE));
-    let (name, what) = match response {
-        Response::Oscillation => ("G′", "frequencies"),
-        Response::Relaxation => ("G", "times"),
-        Response::Creep => ("J", "times"),
+    let (name, one, what) = match response {
+        Response::Oscillation => ("G′", "frequency", "frequencies"),
+        Response::Relaxation => ("G", "time", "times"),
+        Response::Creep => ("J", "time", "times"),
     };
     let drives: Vec<f64> = rows.iter().map(|row| row.at).collect();
     let pairs: Vec<[f64; 2]> = rows.iter().map(|row| [row.at, row.moduli[0]]).collect();
@@ -97,9 +107,12 @@ fn told_of(rows: &[ResponseRow], temperature: Option<f64>, response: Response) -
         squares += repeat.iter().map(|row| (row[1].ln() - mean).powi(2)).sum::<f64>();
         degrees += n - 1.0;
     }
+    let those = match repeats.len() {
+        1 => format!("1 {one} is"),
+        count => format!("{count} {what} are"),
+    };
     Some(format!(
-        "{at}{} {what} are measured more than once, and all rows count: repeats of {name} scatter by {:.2} %",
-        repeats.len(),
+        "{at}{those} measured more than once, and all rows count: repeats of {name} scatter by {:.2} %",
         100.0 * (squares / degrees).sqrt()
     ))
 }

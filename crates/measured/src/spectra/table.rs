@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::columns::{Column, Columns, TEMPERATURE, columns, is_known, kelvin};
-use super::isotherms::grouped;
+use super::isotherms::{Group, grouped, told_of};
 use super::response::{Isotherm, Response, ResponseRow};
 use crate::MeasuredError;
 use crate::fitting::{TableMistake, TableReport};
@@ -92,12 +92,24 @@ impl SpectrumTable {
         let isotherms = self.isotherms.iter().chain(&other.isotherms);
         let rows: Vec<(Option<f64>, ResponseRow)> =
             isotherms.flat_map(|found| found.rows.iter().map(|row| (found.temperature, *row))).collect();
-        let (isotherms, notes) = grouped(&rows, self.response).map_err(|[low, high]| MeasuredError::Argument {
+        let groups = grouped(&rows).map_err(|[low, high]| MeasuredError::Argument {
             argument: format!("{shown}: temperatures from {low} to {high} K"),
             valid: RAMP,
         })?;
-        self.isotherms = isotherms;
-        self.notes.extend(notes.into_iter().filter(|note| !self.notes.contains(note)).collect::<Vec<_>>());
+        let own: usize = self.isotherms.iter().map(|isotherm| isotherm.rows.len()).sum();
+        self.isotherms.clear();
+        for group in groups {
+            let mut notes: Vec<String> = group.merged.iter().cloned().collect();
+            // The rows of each file are sorted, and what they were is told already. New is what two files measured alike.
+            let is_shared = group.places.iter().any(|k| *k < own) && group.places.iter().any(|k| own <= *k);
+            let isotherm = group.sorted();
+            if is_shared {
+                notes.extend(told_of(&isotherm, self.response));
+            }
+            self.isotherms.push(isotherm);
+            let new: Vec<String> = notes.into_iter().filter(|note| !self.notes.contains(note)).collect();
+            self.notes.extend(new);
+        }
         Ok(())
     }
 }
@@ -139,12 +151,14 @@ fn parsed(text: &str) -> Result<Parsed, Vec<TableMistake>> {
     if !mistakes.is_empty() {
         return Err(mistakes);
     }
-    let (isotherms, more) = grouped(&rows, columns.response).map_err(|[low, high]| {
+    let groups = grouped(&rows).map_err(|[low, high]| {
         let what = format!("temperatures run from {low} to {high} K without a gap");
         vec![TableMistake::new(sheet.last, what, RAMP)]
     })?;
-    notes.extend(more);
-    Ok((columns.response, isotherms, notes))
+    for group in &groups {
+        notes.extend(group.merged.iter().cloned().chain(told_of(&group.isotherm, columns.response)));
+    }
+    Ok((columns.response, groups.into_iter().map(Group::sorted).collect(), notes))
 }
 
 /// `150 °C`, `423 K`.

@@ -310,13 +310,40 @@ fn wandering_temperatures_repeats_and_sweeps_are_told() -> Result<(), Box<dyn st
     let table = SpectrumTable::parse("melt.csv", &repeated)?;
     // Two numbers, ln 1.02 apart: s = 0.0198/√2.
     let expected =
-        "at 150.0 °C 1 frequencies are measured more than once, and all rows count: repeats of G′ scatter by 1.40 %";
+        "at 150.0 °C 1 frequency is measured more than once, and all rows count: repeats of G′ scatter by 1.40 %";
     assert_eq!(table.notes, [expected]);
     let swept = "omega [rad/s],G' [Pa],G'' [Pa]\n1,1,1\n2,2,2\n4,4,4\n4,3.6,4\n2,1.8,2\n1,0.9,1\n";
     let table = SpectrumTable::parse("melt.csv", swept)?;
     let expected = "frequencies rise and fall: both sweeps are fitted together; falling G′ are 0.900 times rising ones in the mean";
     assert_eq!(table.notes, [expected]);
     assert_eq!(table.isotherms[0].rows.len(), 6);
+    Ok(())
+}
+
+/// Sweeps of a file stay sweeps beside other files; repeats between files are told of the isotherm that they share.
+#[test]
+fn notes_of_several_files_are_told_once() -> Result<(), Box<dyn std::error::Error>> {
+    let folder = std::env::temp_dir().join(format!("piola-notes-{}", std::process::id()));
+    std::fs::create_dir_all(&folder)?;
+    let written = |name: &str, temperature: f64, rows: &str| {
+        let path = folder.join(name);
+        let text = format!("# temperature: {temperature} °C\nomega [rad/s],G' [Pa],G'' [Pa]\n{rows}");
+        std::fs::write(&path, text).map(|()| path)
+    };
+    let swept = written("swept.csv", 150.0, "1,1,1\n2,2,2\n4,4,4\n4,3.6,4\n2,1.8,2\n1,0.9,1\n")?;
+    let other = written("other.csv", 170.0, "1,1,1\n2,2,2\n4,4,4\n")?;
+    let again = written("again.csv", 170.0, "1,1.02,1\n8,8,8\n")?;
+    let sweeps = "at 150.0 °C frequencies rise and fall: both sweeps are fitted together; falling G′ are 0.900 times rising ones in the mean";
+    let repeats =
+        "at 170.0 °C 1 frequency is measured more than once, and all rows count: repeats of G′ scatter by 1.40 %";
+    let two = SpectrumTable::load(&[swept.clone(), other.clone()]);
+    let three = SpectrumTable::load(&[swept, other, again]);
+    std::fs::remove_dir_all(&folder)?;
+    assert_eq!(two?.notes, [sweeps]);
+    let three = three?;
+    assert_eq!(three.notes, [sweeps, repeats]);
+    let at: Vec<f64> = three.isotherms[1].rows.iter().map(|row| row.at).collect();
+    assert_eq!(at, [1.0, 1.0, 2.0, 4.0, 8.0]);
     Ok(())
 }
 

@@ -2,7 +2,7 @@
 
 use piola_fluids::{Arrhenius, TemperatureShift, WilliamsLandelFerry};
 use piola_spectra::{
-    IsothermalCurve, fit_arrhenius, fit_williams_landel_ferry, horizontal_shifts, shifts_along_both_axes,
+    IsothermalCurve, SpectraError, fit_arrhenius, fit_williams_landel_ferry, horizontal_shifts, shifts_along_both_axes,
 };
 use piola_testkit::{Tol, assert_close, assert_each_close};
 
@@ -116,7 +116,33 @@ fn straight_lines_have_no_vertical_shift() {
     let curve = [IsothermalCurve { angular_frequencies: &frequencies, moduli: &moduli }];
     let refused = shifts_along_both_axes(&[&curve, &curve], 0).expect_err("straight").to_string();
     assert!(refused.starts_with("curves 0 and 1 are straight lines in logarithms"), "{refused}");
+    // Noise does not bend them.
+    let frequencies: Vec<f64> = (0..31).map(|k| 10.0_f64.powf(0.1 * f64::from(k))).collect();
+    for (noise, seed) in [(0.0, 1), (1e-4, 1), (1e-3, 1), (1e-3, 2), (1e-2, 1), (1e-2, 2), (3e-2, 1)] {
+        let mut normal = super::Normal::new(seed);
+        let mut measured = |exact: f64| exact * (1.0 + noise * normal.next());
+        let cold: Vec<f64> = frequencies.iter().map(|w| measured(w.sqrt())).collect();
+        let warm: Vec<f64> =
+            frequencies.iter().map(|w| measured((w * (-0.7_f64).exp()).sqrt() / 0.05_f64.exp())).collect();
+        let [cold, warm] = [&cold, &warm].map(|moduli| [IsothermalCurve { angular_frequencies: &frequencies, moduli }]);
+        let found = shifts_along_both_axes(&[&cold, &warm], 0);
+        assert_eq!(found, Err(SpectraError::StraightCurves { first: 0, second: 1 }), "noise {noise}, seed {seed}");
+    }
     let two = [curve[0], curve[0]];
     let refused = shifts_along_both_axes(&[&curve, &two], 0).expect_err("one and two").to_string();
     assert_eq!(refused, "`curves of a temperature` has length 2; length 1 is needed");
+}
+
+/// Curves that overlap by half of their points only at the end of what is tried.
+#[test]
+fn shifts_at_the_end_of_the_overlap_are_numbers() {
+    let cold_frequencies: Vec<f64> = (0..12).map(|k| 2.0_f64.powi(k)).collect();
+    let warm_frequencies = [1.0, 2.0, 4.0];
+    // A plateau and a corner: the three points of the warm curve fit beside the end of the cold one, and nowhere else.
+    let cold: Vec<f64> = cold_frequencies.iter().map(|w| if *w < 1000.0 { 1.0 } else { w / 512.0 }).collect();
+    let warm = [1.0, 1.0, 2.0];
+    let cold = IsothermalCurve { angular_frequencies: &cold_frequencies, moduli: &cold };
+    let warm = IsothermalCurve { angular_frequencies: &warm_frequencies, moduli: &warm };
+    let shifts = horizontal_shifts(&[cold, warm], 0).expect("shifts");
+    assert!(shifts.iter().all(|shift| shift.is_finite()), "{shifts:?}");
 }
