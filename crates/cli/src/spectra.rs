@@ -6,7 +6,9 @@ use clap::Args;
 use piola_charts::Folder;
 use piola_measured::MeasuredError;
 use piola_measured::fitting::Program;
-use piola_measured::spectra::{SpectrumRequest, SpectrumTable, general_viscoelastic, prony, spectrum_until};
+use piola_measured::spectra::{
+    RelaxationMode, RelaxationSpectrum, SpectrumRequest, SpectrumTable, general_viscoelastic, prony, spectrum_until,
+};
 
 use crate::Exit;
 use crate::commands::{note, refused};
@@ -48,9 +50,29 @@ pub(crate) struct SpectrumArguments {
     pub(crate) json: bool,
 }
 
+/// The name of the file of a card, and the card.
+fn card(
+    text: &str,
+    arguments: &SpectrumArguments,
+    spectrum: &RelaxationSpectrum,
+) -> Result<(String, String), MeasuredError> {
+    let program: Program = text.parse()?;
+    let card = match (program, arguments.bulk_modulus, arguments.density) {
+        (Program::LsDyna, Some(bulk), Some(density)) => general_viscoelastic(spectrum, bulk, density)?,
+        _ => prony(program, spectrum)?,
+    };
+    Ok((format!("{text}-prony.{}", program.ending()), card))
+}
+
 pub(crate) fn find(arguments: &SpectrumArguments) -> Exit {
     let interrupt = Interrupt::listen();
     let prepared = SpectrumTable::load(&arguments.data).and_then(|table| {
+        // What a card refuses for one mode it refuses for all: before the search.
+        let mode = RelaxationMode { modulus: 1.0, relaxation_time: 1.0 };
+        let one = RelaxationSpectrum::new(vec![mode], 0.0)?;
+        for program in &arguments.cards {
+            card(program, arguments, &one)?;
+        }
         let mut request = SpectrumRequest::default();
         if let Some(text) = &arguments.reference_temperature {
             request = request.at_temperature(text)?;
@@ -59,22 +81,19 @@ pub(crate) fn find(arguments: &SpectrumArguments) -> Exit {
         request.equilibrium = arguments.equilibrium;
         request.vertical = arguments.vertical;
         let found = watched(&table.name(), &interrupt, |watch| spectrum_until(&table, &request, watch))?;
-        let card = |text: &String| -> Result<(String, String), MeasuredError> {
-            let program: Program = text.parse()?;
-            let spectrum = &found.fit.spectrum;
-            let card = match (program, arguments.bulk_modulus, arguments.density) {
-                (Program::LsDyna, Some(bulk), Some(density)) => general_viscoelastic(spectrum, bulk, density)?,
-                _ => prony(program, spectrum)?,
-            };
-            Ok((format!("{text}-prony.{}", program.ending()), card))
-        };
-        let cards = arguments.cards.iter().map(card).collect::<Result<Vec<_>, _>>()?;
         let beside = || Path::new("out").join(format!("spectrum-{}", table.name()));
         let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
-        Ok((table, found, cards, folder))
+        Ok((table, found, folder))
     });
     match prepared {
-        Ok((table, found, cards, folder)) => {
+        Ok((table, found, folder)) => {
+            let (mut cards, mut refusals) = (Vec::new(), Vec::new());
+            for program in &arguments.cards {
+                match card(program, arguments, &found.fit.spectrum) {
+                    Ok(card) => cards.push(card),
+                    Err(error) => refusals.push(error),
+                }
+            }
             let written = found.write(&folder, &table, &cards);
             let text = if arguments.json { found.summary(&table) } else { found.table(&table) };
             show(&text, arguments.json, &folder, &written);
@@ -83,7 +102,11 @@ pub(crate) fn find(arguments: &SpectrumArguments) -> Exit {
             } else if !found.is_settled() {
                 note("error: the search of the modes did not converge");
             }
-            if found.is_settled() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
+            for error in &refusals {
+                note(&format!("error: {error}"));
+            }
+            let is_done = found.is_settled() && written.failures.is_empty() && refusals.is_empty();
+            if is_done { Exit::Done } else { Exit::Failed }
         }
         Err(error) => refused(&error, arguments.json),
     }

@@ -121,9 +121,19 @@ fn a_spectrum_is_found_of_files_of_several_temperatures_with_its_card() {
         serde_json::from_str(&folder.read("out/spectrum-cold/summary.json")).unwrap_or_else(|error| panic!("{error}"));
     let modulus = summary["modes"][0]["modulus"].as_f64().unwrap_or(f64::NAN);
     assert!((modulus / 2e3 - 1.0).abs() < 0.01, "{modulus}");
-    let (code, _, told) = run(&["--card", "ls-dyna"]);
-    assert_eq!(code, Some(2));
-    assert!(told.contains("abaqus, ansys, or febio"), "{told}");
+    // What no number of modes would mend is refused before the search: nothing is written.
+    for (card, reason) in
+        [("ls-dyna", "--density"), ("calculix", "CalculiX reads no Prony series"), ("nastran", "abaqus")]
+    {
+        let (code, _, told) = run(&["--card", card, "--out", "none"]);
+        assert_eq!(code, Some(2), "{card}: {told}");
+        assert!(told.contains(reason) && !folder.0.join("none").exists(), "{card}: {told}");
+    }
+    // Too many modes for one program: the fit is written all the same, with the other card.
+    let (code, _, told) = run(&["--modes", "7", "--card", "febio", "--card", "abaqus", "--out", "seven"]);
+    assert_eq!(code, Some(1), "{told}");
+    assert!(told.contains("error: `--card of FEBio with 7 modes` is not accepted"), "{told}");
+    assert!(!folder.read("seven/summary.json").is_empty() && !folder.read("seven/abaqus-prony.inp").is_empty());
 }
 
 #[cfg(not(feature = "specimens"))]

@@ -48,7 +48,7 @@ pub enum NameMeaning {
 /// assert!(names.add("x", NameMeaning::Variable(Variable::Coordinate(0)), Dimension::LENGTH));
 /// // The energy of a spring of 50 N/m; at x = 0.2 m it is 1 J.
 /// let energy = parse("25 [N/m] * x^2", &names, Dimension::FORCE.times(Dimension::LENGTH)).expect("an energy");
-/// assert!((energy.evaluate(&|_| 0.2) - 1.0).abs() < 1e-15);
+/// assert!((energy.evaluate(&|_| 0.2_f64) - 1.0).abs() < 1e-15);
 /// // A length is no energy, and the answer says so.
 /// let mistake = parse("25 * x", &names, Dimension::FORCE).expect_err("a length");
 /// assert!(mistake.found.contains("instead of"), "{}", mistake.found);
