@@ -65,7 +65,7 @@ fn unpack(shell: &Shell, workspace: &Workspace, names: &[&str], packages: &Path,
         shell.remove_path(apart.join(name)).map_err(fail)?;
         let folder = shell.create_dir(apart.join(name)).map_err(fail)?;
         let package = newest(packages, name).map_err(|error| vec![error])?;
-        cmd!(shell, "tar -xzf {package} -C {folder} --strip-components 1").quiet().run().map_err(fail)?;
+        cmd!(shell, "tar -xzmf {package} -C {folder} --strip-components 1").quiet().run().map_err(fail)?;
     }
     let mut manifest = String::from("[workspace]\nresolver = \"3\"\n");
     let list: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
