@@ -181,19 +181,19 @@ impl Expression {
     }
 
     /// The value, where `read` gives the variables. Outside of the domain of a function it is not a number.
-    pub fn evaluate<T: Real>(&self, read: &impl Fn(Variable) -> T) -> T {
+    pub fn evaluate<T: Real>(&self, read: &dyn Fn(Variable) -> T) -> T {
         self.at(self.nodes.len() - 1, read)
     }
 
     /// The value and the partial derivative by one variable.
-    pub fn partial<T: Real>(&self, by: Variable, read: &impl Fn(Variable) -> T) -> Dual<T> {
+    pub fn partial<T: Real>(&self, by: Variable, read: &dyn Fn(Variable) -> T) -> Dual<T> {
         self.evaluate(&|variable| {
             let value = read(variable);
             if variable == by { Dual::variable(value) } else { Dual::constant(value) }
         })
     }
 
-    fn at<T: Real>(&self, node: usize, read: &impl Fn(Variable) -> T) -> T {
+    fn at<T: Real>(&self, node: usize, read: &dyn Fn(Variable) -> T) -> T {
         match self.nodes[node] {
             ExpressionNode::Constant(value) => T::lit(value),
             ExpressionNode::Variable(variable) => read(variable),

@@ -190,13 +190,33 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
                     mass_matrix[i + j * n] = metric[i][j];
                 }
             }
-        }, beyond => {
-            self.form_in_chunks(work, q, v, t);
-            work.complete_metric(n);
-            mass_matrix.copy_from_slice(&work.metric);
-            forcing.copy_from_slice(&work.force);
-        });
-        let given = mass_matrix.iter().chain(&*forcing);
+        }, beyond => return self.equations_in_chunks(work, (q, v, t), mass_matrix, forcing));
+        self.check_equations((q, v, t), mass_matrix, forcing)
+    }
+
+    /// [`equations_into`](Self::equations_into) by the code for any number of coordinates: for what is called once, where a pass for each
+    /// number would be compiled for nothing. All slices fit.
+    pub(super) fn equations_in_chunks<T: Real>(
+        &self,
+        work: &mut Workspace<T>,
+        (q, v, t): (&[T], &[T], T),
+        mass_matrix: &mut [T],
+        forcing: &mut [T],
+    ) -> Result<(), LagrangianError> {
+        self.form_in_chunks(work, q, v, t);
+        work.complete_metric(q.len());
+        mass_matrix.copy_from_slice(&work.metric);
+        forcing.copy_from_slice(&work.force);
+        self.check_equations((q, v, t), mass_matrix, forcing)
+    }
+
+    fn check_equations<T: Real>(
+        &self,
+        (q, v, t): (&[T], &[T], T),
+        mass_matrix: &[T],
+        forcing: &[T],
+    ) -> Result<(), LagrangianError> {
+        let given = mass_matrix.iter().chain(forcing);
         if given.fold(T::Mask::splat(true), |all, a| all & a.is_finite()).all() {
             Ok(())
         } else {

@@ -14,7 +14,7 @@ pub(super) fn words(dimension: Dimension) -> String {
     if dimension == Dimension::NONE { "a pure number".to_string() } else { format!("{dimension}") }
 }
 
-/// Refuses what is no pure number.
+/// An error unless the dimension is that of a pure number.
 pub(super) fn pure(what: &str, dimension: Dimension) -> Result<(), ExpressionMistake> {
     if dimension == Dimension::NONE {
         return Ok(());
@@ -25,7 +25,7 @@ pub(super) fn pure(what: &str, dimension: Dimension) -> Result<(), ExpressionMis
     ))
 }
 
-/// The dimension of a power with a number as exponent, where there is one.
+/// The dimension of `base` to the power `exponent`; none if it is no whole power of metre, kilogram and second.
 pub(super) fn power(base: Dimension, exponent: f64) -> Option<Dimension> {
     let of = |exponents: i16| {
         let exponent = f64::from(exponents) * exponent;

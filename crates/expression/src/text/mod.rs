@@ -91,7 +91,7 @@ impl ExpressionNames {
     }
 }
 
-/// What is wrong with the text of an expression.
+/// A mistake in the text of an expression.
 ///
 /// # Example
 /// See [`ExpressionNames`].

@@ -1,4 +1,4 @@
-//! Expressions: values, derivatives, what they depend on, and trees that are none.
+//! Expressions: values, derivatives, variables, and lists of nodes that are refused.
 
 use piola_expression::{
     DEEPEST_EXPRESSION, Expression, ExpressionError, ExpressionNode as Node, Function, Operation, Variable,

@@ -1,4 +1,4 @@
-//! Expressions from text: values, units, precedence, and what is refused.
+//! Expressions from text: values, units, precedence, and texts that are refused.
 
 use piola_document::units::Dimension;
 use piola_expression::text::{ExpressionNames, NameMeaning, parse};

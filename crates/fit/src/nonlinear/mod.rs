@@ -102,7 +102,6 @@ struct Walk<'p> {
     data: &'p [NonlinearData],
     ranges: &'p [Range],
     evaluations: &'p Cell<usize>,
-    stop: &'p dyn Fn() -> bool,
 }
 
 impl Walk<'_> {
@@ -114,9 +113,6 @@ impl Walk<'_> {
         self.evaluations.set(self.evaluations.get() + 1);
         let mut residuals = Vec::with_capacity(self.data.iter().map(|set| set.rows().len()).sum());
         for set in self.data {
-            if (self.stop)() {
-                return None;
-            }
             self.model.answers(parameters, set, &mut residuals).ok()?;
         }
         let measured = self.data.iter().flat_map(NonlinearData::rows);
@@ -226,7 +222,7 @@ pub fn fit_nonlinear_until(
             return Err(FitError::NumberOfValues { model, parameters: n, values });
         }
         let x = ranges.iter().zip(start).map(|(range, value)| range.inward(*value)).collect();
-        let walk = Walk { model, data, ranges: &ranges, evaluations: &evaluations, stop: &|| false };
+        let walk = Walk { model, data, ranges: &ranges, evaluations: &evaluations };
         if let Some(end) = minimise(walk, x, options.patience.max(1), stop) {
             let squares: f64 = end.state.1.iter().map(|r| r * r).sum();
             ends.push((squares, end));

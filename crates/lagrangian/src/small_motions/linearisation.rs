@@ -162,7 +162,7 @@ impl<T: Real> Sweep<T> {
         let n = self.q.len();
         *self.rate(direction) = T::one();
         let Self { work, q, v, t, mass_matrix, forcing } = &mut *self;
-        lagrangian.equations_into(work, q, v, *t, mass_matrix, forcing)?;
+        lagrangian.equations_in_chunks(work, (q, v, *t), mass_matrix, forcing)?;
         for (i, out) in out.iter_mut().enumerate() {
             let inertia = (0..n).fold(T::zero(), |sum, j| sum + mass_matrix[i + j * n].tangent * a[j]);
             *out = inertia - forcing[i].tangent;

@@ -2,8 +2,8 @@
 //!
 //! [`AnySolid::visit`] calls a visitor with the type of each law, so that the compiler makes a kernel for each law, request and
 //! set of instructions: twenty-nine for each request. [`visit`] calls it with the kind of the law: the formula that makes stress and
-//! tangent of what a law gives is compiled once for all laws of a kind, twelve for each request. Laws of straight code, which lanes run a
-//! third faster by themselves, stay kinds of their own.
+//! tangent of what a law gives is compiled once for all laws of a kind, twelve for each request. Laws of straight code run
+//! faster in lanes by themselves and stay kinds of their own.
 //!
 //! | kind | laws | what a law gives |
 //! |---|---|---|

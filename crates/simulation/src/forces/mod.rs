@@ -92,7 +92,7 @@ impl ForceKind {
     }
 
     /// The stored energy, J, where `q` gives the coordinates by index.
-    pub fn energy<T: Real>(&self, tree: &JointTree, q: &impl Fn(usize) -> T, t: T) -> T {
+    pub fn energy<T: Real>(&self, tree: &JointTree, q: &dyn Fn(usize) -> T, t: T) -> T {
         match self {
             Self::Spring { ends, stiffness, length, .. } => {
                 let half = T::lit(0.5 * stiffness);
@@ -187,12 +187,12 @@ fn moving<'r, T: Real>(q: &'r [T], v: &'r [T]) -> impl Fn(usize) -> Dual<T> + 'r
 }
 
 /// The vector from the first end to the second one.
-fn between<T: Real>(tree: &JointTree, ends: &[Anchor; 2], q: &impl Fn(usize) -> T) -> Vector3<T> {
+fn between<T: Real>(tree: &JointTree, ends: &[Anchor; 2], q: &dyn Fn(usize) -> T) -> Vector3<T> {
     tree.place_of(&ends[1], q) - tree.place_of(&ends[0], q)
 }
 
 /// r = |x₂ − x₁|.
-fn distance<T: Real>(tree: &JointTree, ends: &[Anchor; 2], q: &impl Fn(usize) -> T) -> T {
+fn distance<T: Real>(tree: &JointTree, ends: &[Anchor; 2], q: &dyn Fn(usize) -> T) -> T {
     norm(between(tree, ends, q).into())
 }
 

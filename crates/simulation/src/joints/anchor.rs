@@ -62,7 +62,7 @@ impl JointTree {
     }
 
     /// The place of an anchor in space, m, where `q` gives the coordinates by index.
-    pub fn place_of<T: Real>(&self, anchor: &Anchor, q: &impl Fn(usize) -> T) -> Vector3<T> {
+    pub fn place_of<T: Real>(&self, anchor: &Anchor, q: &dyn Fn(usize) -> T) -> Vector3<T> {
         let mut frame = Frame::ground();
         for &joint in &anchor.path {
             frame = self.joints[joint].frame(&frame, q);

@@ -73,7 +73,7 @@ impl JointTree {
         &self,
         joint: &Node,
         below: &Frame<T>,
-        q: &impl Fn(usize) -> T,
+        q: &dyn Fn(usize) -> T,
         bodies: &mut impl Placement<T>,
     ) {
         let frame = joint.frame(below, q);
@@ -109,25 +109,32 @@ impl<T: Real> Frame<T> {
 
 impl Node {
     /// The frame that the joint carries, on the frame of its parent.
-    fn frame<T: Real>(&self, below: &Frame<T>, q: &impl Fn(usize) -> T) -> Frame<T> {
+    fn frame<T: Real>(&self, below: &Frame<T>, q: &dyn Fn(usize) -> T) -> Frame<T> {
         let q_j = |i: usize| q(self.first + i);
-        let mut origin = below.point(self.offset);
-        let mut attitude = below.attitude;
+        // Displacements and turns are collected first: over derivatives each product of attitudes is much code.
+        let mut shift = constant(self.offset);
+        let (mut axes, mut angles): ([Option<&[f64; 3]>; 2], _) = ([None; 2], None);
         match &self.motion {
             JointMotion::Fixed => {}
-            JointMotion::Revolute(axis) => attitude = attitude.product(about(*axis, q_j(0))),
+            JointMotion::Revolute(axis) => axes[0] = Some(axis),
             JointMotion::Prismatic(axis) => {
-                let shift = q_j(0);
-                origin += attitude.to_space(&constant(*axis).map(|x: T| x * shift));
+                let along = q_j(0);
+                shift += constant(*axis).map(|x: T| x * along);
             }
-            JointMotion::Universal(first, second) => {
-                attitude = attitude.product(about(*first, q_j(0))).product(about(*second, q_j(1)));
-            }
-            JointMotion::Spherical => attitude = attitude.product(Attitude::from_euler_zyz([q_j(0), q_j(1), q_j(2)])),
+            JointMotion::Universal(first, second) => axes = [Some(first), Some(second)],
+            JointMotion::Spherical => angles = Some(0),
             JointMotion::Free => {
-                origin += attitude.to_space(&Vector3::new(q_j(0), q_j(1), q_j(2)));
-                attitude = attitude.product(Attitude::from_euler_zyz([q_j(3), q_j(4), q_j(5)]));
+                shift += Vector3::new(q_j(0), q_j(1), q_j(2));
+                angles = Some(3);
             }
+        }
+        let origin = below.origin + below.attitude.to_space(&shift);
+        let mut attitude = below.attitude;
+        for (i, axis) in axes.into_iter().flatten().enumerate() {
+            attitude = attitude.product(about(*axis, q_j(i)));
+        }
+        if let Some(first) = angles {
+            attitude = attitude.product(Attitude::from_euler_zyz([q_j(first), q_j(first + 1), q_j(first + 2)]));
         }
         Frame { origin, attitude }
     }
