@@ -8,10 +8,12 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod abaqus;
+mod blocks;
 #[expect(unsafe_code, reason = "pointers from C")]
 pub mod c;
 mod conversions;
 mod error;
+mod evaluation;
 pub mod flows;
 #[doc(hidden)]
 pub mod internal {
@@ -21,6 +23,7 @@ pub mod internal {
 pub mod materials;
 pub mod named;
 pub mod points;
+mod stages;
 pub mod text;
 
 pub use error::FfiError;

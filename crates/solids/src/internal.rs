@@ -9,6 +9,10 @@ pub use crate::isochoric::rivlin::rivlin_term;
 pub use crate::isochoric::yeoh::yeoh;
 pub use crate::isochoric_factor::Unimodular;
 pub use crate::ogden::terms::ogden_term;
+/// Stress and tangent of slopes and curvatures that are given.
+pub mod composition {
+    pub use crate::invariant::composition::*;
+}
 /// P and ∂P/∂F as numbers one after the other.
 pub mod packed {
     pub use crate::packed::*;

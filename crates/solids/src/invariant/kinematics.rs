@@ -33,9 +33,20 @@ impl<T: Real> Kinematics<T> {
     /// energy needs it, are those of [`invariants_of`].
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of<L: InvariantEnergy>(gradient: Rows<T>, displacement: Rows<T>, jacobian: T) -> Self {
-        let closed = Self::near::<L>(gradient, displacement);
+        if L::SECOND {
+            Self::with_invariants::<true>(gradient, displacement, jacobian)
+        } else {
+            Self::with_invariants::<false>(gradient, displacement, jacobian)
+        }
+    }
+
+    /// Those of a law that depends on I₂, or not.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn with_invariants<const SECOND: bool>(gradient: Rows<T>, displacement: Rows<T>, jacobian: T) -> Self {
+        let closed = Self::closed::<SECOND>(gradient, displacement);
         let near = kernels::is_moderate(gradient, displacement);
-        if near.all() { closed } else { Self { near, turned: near, ..closed }.with_far::<L>(jacobian) }
+        // The forms for large strain only in the lanes that need them.
+        if near.all() { closed } else { Self { near, turned: near, ..closed }.completed::<SECOND>(jacobian) }
     }
 
     /// [`of`](Self::of) a deformation.
@@ -53,7 +64,7 @@ impl<T: Real> Kinematics<T> {
     // Without optimisation a function of its own: each method of each law would hold two copies.
     #[cfg_attr(not(debug_assertions), inline(always))]
     #[cfg_attr(debug_assertions, inline(never))]
-    fn closed<const SECOND: bool>(gradient: Rows<T>, h: Rows<T>) -> Self {
+    pub(super) fn closed<const SECOND: bool>(gradient: Rows<T>, h: Rows<T>) -> Self {
         let (one, two) = (T::one(), T::lit(2.0));
         let change = kernels::right_cauchy_green_minus_one(h);
         let [a, b, c, x_12, x_23, x_13] = change.components;
@@ -106,11 +117,6 @@ impl<T: Real> Kinematics<T> {
 
     /// With the forms for large strain in the lanes that need them.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn with_far<L: InvariantEnergy>(self, jacobian: T) -> Self {
-        if L::SECOND { self.completed::<true>(jacobian) } else { self.completed::<false>(jacobian) }
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
     #[cfg_attr(debug_assertions, inline(never))]
     fn completed<const SECOND: bool>(self, jacobian: T) -> Self {
         let (one, three) = (T::one(), T::lit(3.0));
@@ -160,9 +166,15 @@ impl<T: Real> Kinematics<T> {
     /// at large strain P = 2 w₁ F + ∂W/∂J Cof F + 2 w₂ F (I₁ 1 − C).
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn first_piola<L: InvariantEnergy>(&self, slopes: &Slopes<T>) -> Rows<T> {
+        if L::SECOND { self.stress::<true>(slopes) } else { self.stress::<false>(slopes) }
+    }
+
+    /// P of the slopes of a law that depends on I₂, or not.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) fn stress<const SECOND: bool>(&self, slopes: &Slopes<T>) -> Rows<T> {
         let (two, four) = (T::lit(2.0), T::lit(4.0));
         let mut stiffness = two * slopes.first;
-        if L::SECOND {
+        if SECOND {
             stiffness += four * slopes.second * self.shift;
         }
         let mut pressure = slopes.residual + stiffness * self.invariants.change;
@@ -172,7 +184,7 @@ impl<T: Real> Kinematics<T> {
         }
         let stress =
             sum(scaled(self.beyond, stiffness), scaled(self.cofactor, pressure * self.invariants.jacobian.recip()));
-        if !L::SECOND {
+        if !SECOND {
             return stress;
         }
         // The slope comes last: it waits for a root of J, and what is multiplied by it does not.

@@ -20,6 +20,7 @@ use piola_tensor::internal::rows::{Rows, double_contraction};
 use crate::known_volume::KnownVolume;
 use crate::packed;
 
+pub(crate) mod composition;
 mod energy;
 mod kinematics;
 mod measures;

@@ -61,7 +61,7 @@ pub(super) fn tangent<T: Real, L: InvariantEnergy>(
 // Without optimisation a function of its own: each of seven methods of each law would hold two copies of it.
 #[cfg_attr(not(debug_assertions), inline(always))]
 #[cfg_attr(debug_assertions, inline(never))]
-fn sum_of_terms<T: Real, const SECOND: bool, const CURVED: bool>(
+pub(super) fn sum_of_terms<T: Real, const SECOND: bool, const CURVED: bool>(
     slopes: &Slopes<T>,
     curvatures: &Curvatures<T>,
     kinematics: &Kinematics<T>,
