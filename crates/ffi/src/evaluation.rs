@@ -157,8 +157,8 @@ impl<'a> Evaluation<'a> {
         match (self.wanted.tangent.is_some(), part.f.len() <= WIDTH) {
             (false, false) => with_memory!(MOST, [7, 5, 10, 6], |memory| self.blocks(part, memory)),
             (false, true) => with_memory!(1, [7, 5, 10, 6], |memory| self.blocks(part, memory)),
-            (true, false) => with_memory!(MOST, [10, 28, 55, 21], |memory| self.blocks(part, memory)),
-            (true, true) => with_memory!(1, [10, 28, 55, 21], |memory| self.blocks(part, memory)),
+            (true, false) => with_memory!(MOST, [10, 34, 55, 21], |memory| self.blocks(part, memory)),
+            (true, true) => with_memory!(1, [10, 34, 55, 21], |memory| self.blocks(part, memory)),
         }
     }
 

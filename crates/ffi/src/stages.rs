@@ -3,17 +3,20 @@
 //! ```text
 //! F → I₁, I₂, J → slopes, curvatures → P, ∂P/∂F      laws of invariants
 //! F → S, ∂S/∂E                       → P, ∂P/∂F      laws of strain
-//! F                                  → P, ∂P/∂F      laws of principal stretches, linear elasticity
+//! F → λ, frames, β, ∂β/∂ ln λ        → P, ∂P/∂F      laws of principal stretches
+//! F                                  → P, ∂P/∂F      linear elasticity
 //! P, ∂P/∂F → T, S; ∂S/∂E, c/J, Jaumann's tangent     all
 //! ```
 //! A stage is compiled once for each set of instructions. One kernel for each law and request, with the composition in each,
 //! would be five times as much code. Numbers between stages stay in the first caches.
 
 use piola::continuum::DeformationGradient;
-use piola::laws::kinds::{LawOfInvariants, LawOfStrain, LawOfStretches};
+use piola::laws::kinds::{self, LawOfInvariants, LawOfStrain, LawOfStretches};
 use piola::numerics::{LaneKernel, Lanes, Mask, Real, dispatch_lanes};
-use piola::solids::internal::{composition, first_piola_numbers, packed};
+use piola::solids::internal::composition::{composed, in_frames};
+use piola::solids::internal::{first_piola_numbers, packed};
 use piola::solids::invariant::{Curvatures, InvariantEnergy, Invariants, Slopes};
+use piola::solids::stretch::StretchEnergy;
 use piola::solids::{
     AnisotropicLinear, AnySolid, AnyVolumetric, Hyperelastic, IsochoricOgden, LinearElastic, SolidsError,
 };
@@ -155,8 +158,14 @@ impl<'a> Kind<'a> {
                 run::<_, 0, 28>(&MaterialOf(law), points, f, &[], second);
                 run::<_, 28, 55>(&BothOfMaterial, points, f, second, answers);
             }
-            Self::Stretches(law) => run::<_, 0, 55>(&BothOf(law), points, f, &[], answers),
-            Self::Isochoric(law) => run::<_, 0, 55>(&BothOf(*law), points, f, &[], answers),
+            Self::Stretches(law) => {
+                run::<_, 0, 34>(&FramesOf(law), points, f, &[], second);
+                run::<_, 34, 55>(&BothOfFrames, points, f, second, answers);
+            }
+            Self::Isochoric(law) => {
+                run::<_, 0, 34>(&FramesOf(*law), points, f, &[], second);
+                run::<_, 34, 55>(&BothOfFrames, points, f, second, answers);
+            }
             Self::Linear(law) => run::<_, 0, 55>(law, points, f, &[], answers),
         }
     }
@@ -238,8 +247,10 @@ struct StressOfSecondPiola;
 struct BothOfMaterial;
 /// P of a law that gives it at once.
 struct StressOf<'a, L>(&'a L);
-/// P and ∂P/∂F of a law that gives them at once.
-struct BothOf<'a, L>(&'a L);
+/// The law in the principal frame, and the frames.
+struct FramesOf<'a, L>(&'a L);
+/// P and ∂P/∂F of the law in the principal frame.
+struct BothOfFrames;
 
 /// A law of linear elasticity.
 pub(crate) enum Linear<'a> {
@@ -276,7 +287,7 @@ fn with_curvatures<T: Real>(s: &Slopes<T>, c: &Curvatures<T>, certain: T) -> [T;
 
 stages! {
     InvariantsOf [0 => 6] |_law, f, _given| {
-        let Invariants { first, second, change, jacobian, first_whole, second_whole } = composition::invariants(f);
+        let Invariants { first, second, change, jacobian, first_whole, second_whole } = kinds::composition::invariants(f);
         [first, second, change, jacobian, first_whole, second_whole]
     };
     SlopesOf<'_> [6 => 5] |law, f, given| {
@@ -290,11 +301,11 @@ stages! {
     };
     StressOfSlopes [5 => 10] |_law, f, given| {
         let (slopes, certain) = apart(&given);
-        and_last(&composition::first_piola(f, slopes), certain)
+        and_last(&kinds::composition::first_piola(f, slopes), certain)
     };
     BothOfCurvatures [11 => 55] |_law, f, given| {
         let (slopes_and_curvatures, certain) = apart(&given);
-        packed::with_one_more(composition::first_piola_and_upper_triangle(f, slopes_and_curvatures), certain)
+        packed::with_one_more(kinds::composition::first_piola_and_upper_triangle(f, slopes_and_curvatures), certain)
     };
     SecondPiolaOf<'_> [0 => 7] |law, f, _given| {
         and_last(&law.0.second_piola(f).0.components, certain(jacobian(f), law.0.check(f)))
@@ -333,8 +344,13 @@ stages! {
         let stress = packed::of_stress(law.0.first_piola(f).rows());
         and_last(&stress, certain(jacobian(f), law.0.check(f)))
     };
-    BothOf<'_, L>, [L: Hyperelastic] [0 => 55] |law, f, _given| {
-        packed::with_one_more(law.0.first_piola_and_upper_triangle(f), certain(jacobian(f), law.0.check(f)))
+    FramesOf<'_, L>, [L: StretchEnergy] [0 => 34] |law, f, _given| {
+        let certain = certain(jacobian(f), law.0.check(f));
+        and_last(&in_frames(law.0, f), certain)
+    };
+    BothOfFrames [34 => 55] |_law, _f, given| {
+        let (numbers, certain) = apart(&given);
+        packed::with_one_more(composed(&numbers), certain)
     };
     Linear<'_> [0 => 10] |law, f, _given| {
         let stress = match law {

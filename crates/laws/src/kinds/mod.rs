@@ -17,6 +17,8 @@
 
 use piola_solids::{AnySolid, SolidVisitor};
 
+#[doc(hidden)]
+pub mod composition;
 mod invariants;
 mod strain;
 mod stretches;

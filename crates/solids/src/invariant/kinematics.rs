@@ -11,7 +11,8 @@ use super::energy::{InvariantEnergy, Invariants, Slopes};
 pub(super) const SMALL: f64 = 0.25;
 
 /// Kinematic quantities of both stress and tangent.
-pub(super) struct Kinematics<T: Real> {
+#[derive(Debug)]
+pub struct Kinematics<T: Real> {
     /// F.
     pub(super) gradient: Rows<T>,
     /// 1 where what follows is a difference from the reference, 0 where it is not.
@@ -19,7 +20,8 @@ pub(super) struct Kinematics<T: Real> {
     /// C − 1; C where the strain is large.
     pub(super) change: Symmetric<T>,
     pub(super) cofactor: Rows<T>,
-    pub(super) invariants: Invariants<T>,
+    /// The invariants.
+    pub invariants: Invariants<T>,
     /// F − Cof F where ∇u is moderate, computed from ∇u; F − F⁻ᵀ where only the strain is; F elsewhere.
     beyond: Rows<T>,
     /// Mask of moderate ∇u.
@@ -42,7 +44,8 @@ impl<T: Real> Kinematics<T> {
 
     /// Those of a law that depends on I₂, or not.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn with_invariants<const SECOND: bool>(gradient: Rows<T>, displacement: Rows<T>, jacobian: T) -> Self {
+    #[must_use]
+    pub fn with_invariants<const SECOND: bool>(gradient: Rows<T>, displacement: Rows<T>, jacobian: T) -> Self {
         let closed = Self::closed::<SECOND>(gradient, displacement);
         let near = kernels::is_moderate(gradient, displacement);
         // The forms for large strain only in the lanes that need them.
@@ -61,10 +64,12 @@ impl<T: Real> Kinematics<T> {
         if L::SECOND { Self::closed::<true>(gradient, h) } else { Self::closed::<false>(gradient, h) }
     }
 
+    /// Those of F and ∇u where they are [moderate](kernels::is_moderate), of a law that depends on I₂, or not.
     // Without optimisation a function of its own: each method of each law would hold two copies.
     #[cfg_attr(not(debug_assertions), inline(always))]
     #[cfg_attr(debug_assertions, inline(never))]
-    pub(super) fn closed<const SECOND: bool>(gradient: Rows<T>, h: Rows<T>) -> Self {
+    #[must_use]
+    pub fn closed<const SECOND: bool>(gradient: Rows<T>, h: Rows<T>) -> Self {
         let (one, two) = (T::one(), T::lit(2.0));
         let change = kernels::right_cauchy_green_minus_one(h);
         let [a, b, c, x_12, x_23, x_13] = change.components;
@@ -171,7 +176,8 @@ impl<T: Real> Kinematics<T> {
 
     /// P of the slopes of a law that depends on I₂, or not.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn stress<const SECOND: bool>(&self, slopes: &Slopes<T>) -> Rows<T> {
+    #[must_use]
+    pub fn stress<const SECOND: bool>(&self, slopes: &Slopes<T>) -> Rows<T> {
         let (two, four) = (T::lit(2.0), T::lit(4.0));
         let mut stiffness = two * slopes.first;
         if SECOND {

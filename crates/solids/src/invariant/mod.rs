@@ -20,7 +20,6 @@ use piola_tensor::internal::rows::{Rows, double_contraction};
 use crate::known_volume::KnownVolume;
 use crate::packed;
 
-pub(crate) mod composition;
 mod energy;
 mod kinematics;
 mod measures;
@@ -28,8 +27,13 @@ mod straight;
 mod tangent;
 
 pub use energy::{Curvatures, InvariantEnergy, Invariants, Slopes, invariants_of};
-use kinematics::Kinematics;
+#[doc(hidden)]
+pub use kinematics::Kinematics;
 pub use measures::{kirchhoff, second_piola};
+#[doc(hidden)]
+pub use straight::square;
+#[doc(hidden)]
+pub use tangent::sum_of_terms;
 use tangent::tangent;
 
 /// J − 1 − ln J, never negative and of second order in the change of volume, without cancellation.

@@ -41,7 +41,8 @@ fn both<T: Real, L: InvariantEnergy>(law: &L, kinematics: &Kinematics<T>) -> [T;
 
 /// |∇u|² = tr (C − 1) − 2 tr ∇u, as it tells what is moderate.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn square<T: Real>(kinematics: &Kinematics<T>, h: Rows<T>) -> T {
+#[must_use]
+pub fn square<T: Real>(kinematics: &Kinematics<T>, h: Rows<T>) -> T {
     kinematics.invariants.first - T::lit(2.0) * (h[0][0] + h[1][1] + h[2][2])
 }
 

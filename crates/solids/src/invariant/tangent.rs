@@ -58,10 +58,12 @@ pub(super) fn tangent<T: Real, L: InvariantEnergy>(
     }
 }
 
+/// ∂P/∂F of a law that depends on I₂, or not, and has curvatures besides ∂²W/∂J², or not.
 // Without optimisation a function of its own: each of seven methods of each law would hold two copies of it.
 #[cfg_attr(not(debug_assertions), inline(always))]
 #[cfg_attr(debug_assertions, inline(never))]
-pub(super) fn sum_of_terms<T: Real, const SECOND: bool, const CURVED: bool>(
+#[must_use]
+pub fn sum_of_terms<T: Real, const SECOND: bool, const CURVED: bool>(
     slopes: &Slopes<T>,
     curvatures: &Curvatures<T>,
     kinematics: &Kinematics<T>,

@@ -8,12 +8,9 @@ use piola_continuum::Deformation;
 use piola_continuum::internal::strain::MODERATE;
 use piola_numerics::internal::Lanewise;
 use piola_numerics::{Mask, Real};
-
-use super::energy::{Curvatures, Invariants, Slopes};
-use super::kinematics::Kinematics;
-use super::straight::square;
-use super::tangent::sum_of_terms;
-use crate::packed;
+use piola_solids::internal::composition::{Kinematics, square, sum_of_terms};
+use piola_solids::internal::packed::{self, joined};
+use piola_solids::invariant::{Curvatures, Invariants, Slopes};
 
 /// I₁ − 3, I₂ − 3, J − 1 and the rest as stresses need them: errors are relative to the strain.
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -100,61 +97,23 @@ impl Lanewise<29, 54> for Any {
 /// P by rows of ∂W/∂I₁, ∂W/∂I₂, s and J ∂W/∂J, as [`Slopes`] has them.
 #[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
-pub fn first_piola<T: Real>(deformation: &impl Deformation<T>, [w, x, y, z]: [T; 4]) -> [T; 9] {
-    let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = packed::of_deformation(deformation);
-    let inputs = [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, w, x, y, z];
-    let [p11, p12, p13, p21, p22, p23, p31, p32, p33, square] = T::lanewise(&Near, inputs);
+pub fn first_piola<T: Real>(deformation: &impl Deformation<T>, given: [T; 4]) -> [T; 9] {
+    let inputs: [T; 22] = joined(&packed::of_deformation(deformation), &given);
+    let [a, b, c, d, e, f, g, h, i, square] = T::lanewise(&Near, inputs);
     if square.at_most(T::lit(MODERATE)).all() {
-        return [p11, p12, p13, p21, p22, p23, p31, p32, p33];
+        return [a, b, c, d, e, f, g, h, i];
     }
-    T::lanewise(&Any, [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, w, x, y, z, deformation.jacobian()])
+    T::lanewise(&Any, joined(&inputs, &[deformation.jacobian()]))
 }
 
 /// P and the upper triangle of ∂P/∂F of the slopes and the six second derivatives, as [`Curvatures`] has them.
 #[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_piola_and_upper_triangle<T: Real>(deformation: &impl Deformation<T>, given: [T; 10]) -> [T; 54] {
-    let [w, x, y, z, aa, bb, cc, dd, ee, ff] = given;
-    let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = packed::of_deformation(deformation);
-    let (near, square) = packed::without_last(T::lanewise(
-        &Near,
-        [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, w, x, y, z, aa, bb, cc, dd, ee, ff],
-    ));
+    let inputs: [T; 28] = joined(&packed::of_deformation(deformation), &given);
+    let (near, square) = packed::without_last(T::lanewise(&Near, inputs));
     if square.at_most(T::lit(MODERATE)).all() {
         return near;
     }
-    T::lanewise(
-        &Any,
-        [
-            a,
-            b,
-            c,
-            d,
-            e,
-            f,
-            g,
-            h,
-            i,
-            j,
-            k,
-            l,
-            m,
-            n,
-            o,
-            p,
-            q,
-            r,
-            w,
-            x,
-            y,
-            z,
-            aa,
-            bb,
-            cc,
-            dd,
-            ee,
-            ff,
-            deformation.jacobian(),
-        ],
-    )
+    T::lanewise(&Any, joined(&inputs, &[deformation.jacobian()]))
 }
