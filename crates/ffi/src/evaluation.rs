@@ -9,7 +9,7 @@ use crate::conversions::{
     ALL_NINE, BY_ROWS, CauchyOfFirstPiola, JaumannOfFirstPiola, MaterialOfFirstPiola, SQUARE, SecondPiolaOfFirstPiola,
     TruesdellOfFirstPiola,
 };
-use crate::points::{StressMeasure, TangentMeasure, VoigtNumbering};
+use crate::measures::{StressMeasure, TangentMeasure, VoigtNumbering};
 use crate::stages::{Kind, MOST, Number, WIDTH, run};
 
 /// Points from which on, with feature `rayon`, a batch runs on all threads.

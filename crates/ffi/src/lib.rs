@@ -21,6 +21,7 @@ pub mod internal {
     pub use crate::c::status::answer;
 }
 pub mod materials;
+mod measures;
 pub mod named;
 pub mod points;
 mod stages;

@@ -117,8 +117,7 @@ pub(super) fn moduli<T: Real, M: Model>(model: &M, logarithms: [f64; 3], paramet
         [0.0, core::f64::consts::FRAC_1_SQRT_2, -core::f64::consts::FRAC_1_SQRT_2],
     ];
     let lifted: Vec<Dual<Dual<T>>> = parameters.iter().map(|x| Dual::constant(Dual::constant(*x))).collect();
-    // Two nested duals, three times: of the scalars that carry all at once, two directions each time, the compiler makes half as much
-    // code again for the energies of all models.
+    // Two nested duals for each entry: less machine code for the energies of all models than a scalar that carries both directions.
     let second = |[i, j]: [usize; 2]| {
         let stretches = core::array::from_fn(|a| {
             let inner = Dual::new(T::lit(logarithms[a]), T::lit(DIRECTIONS[j][a]));

@@ -8,7 +8,7 @@ use piola_continuum::Deformation;
 use piola_continuum::internal::strain::MODERATE;
 use piola_numerics::internal::Lanewise;
 use piola_numerics::{Mask, Real};
-use piola_solids::internal::composition::{Kinematics, square, sum_of_terms};
+use piola_solids::internal::composition::{InvariantKinematics, square, sum_of_terms};
 use piola_solids::internal::packed::{self, joined};
 use piola_solids::invariant::{Curvatures, Invariants, Slopes};
 
@@ -17,7 +17,7 @@ use piola_solids::invariant::{Curvatures, Invariants, Slopes};
 #[must_use]
 pub fn invariants<T: Real>(deformation: &impl Deformation<T>) -> Invariants<T> {
     let (f, h) = (deformation.gradient_rows(), deformation.displacement_rows());
-    Kinematics::with_invariants::<true>(f, h, deformation.jacobian()).invariants
+    InvariantKinematics::with_invariants::<true>(f, h, deformation.jacobian()).invariants
 }
 
 /// Of F and ∇u, which are moderate; the last number tells whether they are.
@@ -32,12 +32,12 @@ const fn slopes<T: Copy>([first, second, residual, volume]: [T; 4]) -> Slopes<T>
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn stress<T: Real>(kinematics: &Kinematics<T>, given: [T; 4]) -> [T; 9] {
+fn stress<T: Real>(kinematics: &InvariantKinematics<T>, given: [T; 4]) -> [T; 9] {
     packed::of_stress(kinematics.stress::<true>(&slopes(given)))
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn both<T: Real>(kinematics: &Kinematics<T>, given: [T; 10]) -> [T; 54] {
+fn both<T: Real>(kinematics: &InvariantKinematics<T>, given: [T; 10]) -> [T; 54] {
     let [p, q, r, s, first_first, first_second, second_second, first_volume, second_volume, volume_volume] = given;
     let slopes = slopes([p, q, r, s]);
     let curvatures =
@@ -53,7 +53,7 @@ impl Lanewise<22, 10> for Near {
     fn run<T: Real>(&self, inputs: [T; 22]) -> [T; 10] {
         let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, w, x, y, z] = inputs;
         let [gradient, displacement] = packed::gradients([a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r]);
-        let kinematics = Kinematics::closed::<true>(gradient, displacement);
+        let kinematics = InvariantKinematics::closed::<true>(gradient, displacement);
         let [a, b, c, d, e, f, g, h, i] = stress(&kinematics, [w, x, y, z]);
         [a, b, c, d, e, f, g, h, i, square(&kinematics, displacement)]
     }
@@ -64,7 +64,7 @@ impl Lanewise<28, 55> for Near {
     fn run<T: Real>(&self, inputs: [T; 28]) -> [T; 55] {
         let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, w, x, y, z, aa, bb, cc, dd, ee, ff] = inputs;
         let [gradient, displacement] = packed::gradients([a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r]);
-        let kinematics = Kinematics::closed::<true>(gradient, displacement);
+        let kinematics = InvariantKinematics::closed::<true>(gradient, displacement);
         packed::with_one_more(
             both(&kinematics, [w, x, y, z, aa, bb, cc, dd, ee, ff]),
             square(&kinematics, displacement),
@@ -77,7 +77,7 @@ impl Lanewise<23, 9> for Any {
     fn run<T: Real>(&self, inputs: [T; 23]) -> [T; 9] {
         let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, w, x, y, z, jacobian] = inputs;
         let [gradient, displacement] = packed::gradients([a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r]);
-        stress(&Kinematics::with_invariants::<true>(gradient, displacement, jacobian), [w, x, y, z])
+        stress(&InvariantKinematics::with_invariants::<true>(gradient, displacement, jacobian), [w, x, y, z])
     }
 }
 
@@ -88,7 +88,7 @@ impl Lanewise<29, 54> for Any {
             inputs;
         let [gradient, displacement] = packed::gradients([a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r]);
         both(
-            &Kinematics::with_invariants::<true>(gradient, displacement, jacobian),
+            &InvariantKinematics::with_invariants::<true>(gradient, displacement, jacobian),
             [w, x, y, z, aa, bb, cc, dd, ee, ff],
         )
     }

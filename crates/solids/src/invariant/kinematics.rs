@@ -12,7 +12,7 @@ pub(super) const SMALL: f64 = 0.25;
 
 /// Kinematic quantities of both stress and tangent.
 #[derive(Debug)]
-pub struct Kinematics<T: Real> {
+pub struct InvariantKinematics<T: Real> {
     /// F.
     pub(super) gradient: Rows<T>,
     /// 1 where what follows is a difference from the reference, 0 where it is not.
@@ -30,7 +30,7 @@ pub struct Kinematics<T: Real> {
     turned: T::Mask,
 }
 
-impl<T: Real> Kinematics<T> {
+impl<T: Real> InvariantKinematics<T> {
     /// Errors are relative to the strain or to |∇u|², as a stress needs it: those of the invariants themselves, as an
     /// energy needs it, are those of [`invariants_of`].
     #[cfg_attr(not(debug_assertions), inline(always))]
