@@ -153,6 +153,7 @@ impl<'a> Evaluation<'a> {
     }
 
     /// With memory for what is wanted: few points do not pay for many blocks.
+    #[expect(clippy::large_stack_arrays, reason = "61 kB, and nothing is allocated")]
     fn part(&self, part: Part<'_>) -> Bad {
         match (self.wanted.tangent.is_some(), part.f.len() <= WIDTH) {
             (false, false) => with_memory!(MOST, [7, 5, 10, 6], |memory| self.blocks(part, memory)),
@@ -172,15 +173,15 @@ impl<'a> Evaluation<'a> {
             let count = most.min(rest);
             let done = part.f.len() - rest;
             let (_, mut from_here) = part.split(done, self.numbers());
-            let (here, _) = from_here.split(count, self.numbers());
-            self.chunk(here, &mut memory, places.as_ref(), &mut bad);
+            let (mut here, _) = from_here.split(count, self.numbers());
+            self.chunk(&mut here, &mut memory, places.as_ref(), &mut bad);
             rest -= count;
         }
         bad
     }
 
     /// Points for which there is memory.
-    fn chunk(&self, part: Part<'_>, memory: &mut Memory<'_>, places: Option<&[usize; 36]>, bad: &mut Bad) {
+    fn chunk(&self, part: &mut Part<'_>, memory: &mut Memory<'_>, places: Option<&[usize; 36]>, bad: &mut Bad) {
         let points = part.f.len();
         let blocks = points.div_ceil(WIDTH);
         let f = &mut memory.deformations[..blocks];
