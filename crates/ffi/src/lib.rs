@@ -8,10 +8,12 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod abaqus;
+mod blocks;
 #[expect(unsafe_code, reason = "pointers from C")]
 pub mod c;
 mod conversions;
 mod error;
+mod evaluation;
 pub mod flows;
 #[doc(hidden)]
 pub mod internal {
@@ -19,8 +21,10 @@ pub mod internal {
     pub use crate::c::status::answer;
 }
 pub mod materials;
+mod measures;
 pub mod named;
 pub mod points;
+mod stages;
 pub mod text;
 
 pub use error::FfiError;

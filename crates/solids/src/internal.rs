@@ -9,6 +9,11 @@ pub use crate::isochoric::rivlin::rivlin_term;
 pub use crate::isochoric::yeoh::yeoh;
 pub use crate::isochoric_factor::Unimodular;
 pub use crate::ogden::terms::ogden_term;
+/// Parts of stress and tangent, for laws whose answers are put together elsewhere.
+pub mod composition {
+    pub use crate::invariant::{InvariantKinematics, square, sum_of_terms};
+    pub use crate::stretch::{composed, in_frames};
+}
 /// P and ∂P/∂F as numbers one after the other.
 pub mod packed {
     pub use crate::packed::*;

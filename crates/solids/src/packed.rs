@@ -109,3 +109,15 @@ pub fn both<T: Real>(n: [T; 54]) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
     let first_piola = FirstPiola(from_rows([[n[0], n[1], n[2]], [n[3], n[4], n[5]], [n[6], n[7], n[8]]]));
     (first_piola, FirstPiolaTangent(FourthOrder { components }))
 }
+
+/// A numbers and B numbers after them; C is A + B.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub fn joined<T: Copy, const A: usize, const B: usize, const C: usize>(first: &[T; A], then: &[T; B]) -> [T; C] {
+    let mut all = [first[0]; C];
+    let mut k = 0;
+    while k < C {
+        all[k] = if k < A { first[k] } else { then[k - A] };
+        k += 1;
+    }
+    all
+}

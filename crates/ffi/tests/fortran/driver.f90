@@ -14,6 +14,10 @@ program driver
     f(1, 2) = 0.1_real64*step
     call point('shear', f)
   end do
+  ! Held: three more increments at the last deformation.
+  do step = 1, 3
+    call point('held', f)
+  end do
   call block_of_points(3)
   call block_of_points(1)
   call beyond()

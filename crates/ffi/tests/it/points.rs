@@ -106,8 +106,8 @@ fn energies_equal_those_of_the_laws() {
     }
 }
 
-#[test]
-fn every_law_of_the_enum_is_offered() {
+/// A law of each variant of the enum.
+fn every_law() -> Vec<AnySolid> {
     let stiffness = Stiffness::isotropic(1.0, 2.0).unwrap();
     let fung = Fung::new(1.0, stiffness).unwrap();
     let mut laws = laws();
@@ -133,9 +133,14 @@ fn every_law_of_the_enum_is_offered() {
     let term = |[first, second, third]: [u8; 3], coefficient| PolynomialTerm { first, second, third, coefficient };
     let terms = vec![term([1, 0, 0], 0.5), term([0, 1, 0], 0.25), term([0, 0, 1], -1.0), term([0, 0, 2], 5.0)];
     laws.push(Polynomial::new(terms).unwrap().into());
+    laws
+}
+
+#[test]
+fn every_law_of_the_enum_is_offered() {
     let deformation = DeformationGradient::simple_shear(0.25).unwrap(); // keeps the volume
     let f = [numbers(deformation.matrix())];
-    for law in laws {
+    for law in every_law() {
         let (mut found, mut square) = ([[0.0; 9]], [0.0; 81]);
         let out = (&mut found[..], &mut square[..]);
         let measures = (StressMeasure::Cauchy, TangentMeasure::FirstPiola);
@@ -148,6 +153,59 @@ fn every_law_of_the_enum_is_offered() {
         close(&six, &flat(&expected), 8.0);
         stress(&law, StressMeasure::SecondPiola, &f, &mut found).unwrap();
         close(&found[0], &numbers(&law.second_piola(&deformation).0.matrix()), 4.0);
+    }
+}
+
+/// Stresses of strains of 1e-9 have all their digits: the scale is their own size.
+#[test]
+fn stresses_at_small_strain_keep_their_digits() {
+    let turned = strategies::rotation_matrix([0.5, 0.5, -0.5, 0.5]);
+    let mut compared = 0;
+    for (turn, limit) in [([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], 1.0), (turned, 1e8)] {
+        let small = Matrix3::new(1.0 + 2e-9, 1e-9, 0.0, -3e-9, 1.0 - 1e-9, 5e-10, 0.0, 1e-9, 1.0 - 1e-9);
+        let f = from_rows::<f64>(turn) * small;
+        let deformation = DeformationGradient::new(f).unwrap();
+        for law in every_law() {
+            if law.is_incompressible() || law.reference_stress().components.iter().any(|x| 0.0 < x.abs()) {
+                continue; // a pressure, or a stress of the reference
+            }
+            let mut found = [[0.0; 9]];
+            stress(&law, StressMeasure::FirstPiola, &[numbers(&f)], &mut found).unwrap();
+            let expected = numbers(&law.first_piola(&deformation).0);
+            if scale(&expected) < 1e-6 {
+                close(&found[0], &expected, limit);
+                compared += 1;
+            }
+        }
+    }
+    assert!(24 <= compared, "{compared}");
+}
+
+/// A large batch, which several threads share with feature `rayon`: bad points are counted and named, all others have their bits.
+#[test]
+fn parts_of_a_large_batch_have_the_bits_of_a_small_one() {
+    let count = 20_011;
+    let mut f: Vec<[f64; 9]> = (0..count)
+        .map(|k| {
+            let x = f64::from(k % 300) / 300.0;
+            [1.0 + x, 0.2, -0.1, 0.3 * x, 1.0 - 0.3 * x, 0.1, 0.0, -0.2 * x, 1.1]
+        })
+        .collect();
+    let (law, count) = (&laws()[3], f.len());
+    (f[9_000], f[count - 1]) = ([0.0; 9], [f64::NAN; 9]);
+    let (mut stresses, mut tangents) = (vec![[0.0; 9]; count], vec![0.0; 36 * count]);
+    let measures = (StressMeasure::Cauchy, TangentMeasure::Jaumann);
+    let out = (&mut stresses[..], &mut tangents[..]);
+    let result = stress_and_tangent(law, measures, VoigtNumbering::Abaqus, &f, out);
+    assert!(matches!(result, Err(FfiError::BadPoints { bad: 2, index: 9_000, .. })), "{result:?}");
+    for bad in [9_000, count - 1] {
+        assert!(stresses[bad].iter().chain(&tangents[36 * bad..36 * bad + 36]).all(|x| x.is_nan()));
+    }
+    let (mut few, mut six) = ([[0.0; 9]; 13], [0.0; 13 * 36]);
+    for start in [0, 8_995 - 13, 9_001, 10_000, count - 14] {
+        let out = (&mut few[..], &mut six[..]);
+        stress_and_tangent(law, measures, VoigtNumbering::Abaqus, &f[start..start + 13], out).unwrap();
+        assert_eq!((&few[..], &six[..]), (&stresses[start..start + 13], &tangents[36 * start..36 * (start + 13)]));
     }
 }
 

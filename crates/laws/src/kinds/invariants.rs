@@ -6,7 +6,8 @@ use piola_continuum::{Deformation, FirstPiola, KirchhoffStress, SecondPiola};
 use piola_numerics::Real;
 use piola_solids::invariant::{self, Curvatures, InvariantEnergy, Invariants, Slopes};
 use piola_solids::{
-    AnyIsochoric, AnyVolumetric, Compressible, Hyperelastic, IncompressibleSolid, Polynomial, SolidsError,
+    AnyIsochoric, AnyVolumetric, BlatzKo, Compressible, Hyperelastic, IncompressibleSolid, MooneyRivlin, NeoHookean,
+    Polynomial, SolidsError,
 };
 
 use super::kind;
@@ -35,6 +36,9 @@ kind! {
         Compressible(Compressible<AnyIsochoric, AnyVolumetric>),
         Incompressible(IncompressibleSolid<AnyIsochoric>),
         Polynomial(Polynomial),
+        MooneyRivlin(MooneyRivlin),
+        NeoHookean(NeoHookean<AnyVolumetric>),
+        BlatzKo(BlatzKo),
     }
 }
 

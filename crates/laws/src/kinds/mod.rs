@@ -3,17 +3,22 @@
 //! [`AnySolid::visit`] calls a visitor with the type of each law, so that the compiler makes a kernel for each law, request and
 //! set of instructions: twenty-nine for each request. [`visit`] calls it with the kind of the law: the formula that makes stress and
 //! tangent of what a law gives is compiled once for all laws of a kind, twelve for each request. Laws of straight code run
-//! faster in lanes by themselves and stay kinds of their own.
+//! faster in lanes by themselves: `visit` passes them as they are, although they are laws of a kind as well.
 //!
 //! | kind | laws | what a law gives |
 //! |---|---|---|
-//! | [`LawOfInvariants`] | shape and volume, incompressible, polynomial | slopes and curvatures by I₁, I₂, J |
+//! | [`LawOfInvariants`] | shape and volume, incompressible, polynomial; Mooney–Rivlin, neo-Hookean, Blatz–Ko | slopes and curvatures by I₁, I₂, J |
 //! | [`LawOfStretches`] | Ogden, incompressible Ogden, Hencky | w′, w″ and divided differences of w′ |
-//! | [`LawOfStrain`] | Holzapfel–Gasser–Ogden, reinforced neo-Hookean | S and ∂S/∂E |
+//! | [`LawOfStrain`] | Holzapfel–Gasser–Ogden, reinforced neo-Hookean; St. Venant–Kirchhoff, that of any symmetry, Fung | S and ∂S/∂E |
 //! | the law itself | all others | |
+//!
+//! What a law of a kind gives is short. A program that offers all laws may compute it in a pass of its own and put stress and tangent
+//! together in a second one, compiled once: `piola-ffi` does.
 
 use piola_solids::{AnySolid, SolidVisitor};
 
+#[doc(hidden)]
+pub mod composition;
 mod invariants;
 mod strain;
 mod stretches;
@@ -42,27 +47,26 @@ pub use stretches::LawOfStretches;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn visit<V: SolidVisitor>(solid: &AnySolid, visitor: V) -> Option<V::Output> {
+    // Laws of straight code first: they have kinds, too, but are faster in lanes by themselves.
+    match solid {
+        AnySolid::MooneyRivlin(law) => return Some(visitor.visit(law)),
+        AnySolid::NeoHookean(law) => return Some(visitor.visit(law)),
+        AnySolid::BlatzKo(law) => return Some(visitor.visit(law)),
+        AnySolid::SaintVenantKirchhoff(law) => return Some(visitor.visit(law)),
+        AnySolid::AnisotropicSaintVenantKirchhoff(law) => return Some(visitor.visit(law)),
+        AnySolid::Fung(law) => return Some(visitor.visit(law)),
+        AnySolid::IsochoricOgden(law) => return Some(visitor.visit(law)),
+        AnySolid::LinearElastic(law) => return Some(visitor.visit(law)),
+        AnySolid::AnisotropicLinear(law) => return Some(visitor.visit(law)),
+        _ => {}
+    }
     if let Some(law) = LawOfInvariants::of(solid) {
         return Some(visitor.visit(&law));
     }
     if let Some(law) = LawOfStretches::of(solid) {
         return Some(visitor.visit(&law));
     }
-    if let Some(law) = LawOfStrain::of(solid) {
-        return Some(visitor.visit(&law));
-    }
-    match solid {
-        AnySolid::MooneyRivlin(law) => Some(visitor.visit(law)),
-        AnySolid::NeoHookean(law) => Some(visitor.visit(law)),
-        AnySolid::BlatzKo(law) => Some(visitor.visit(law)),
-        AnySolid::SaintVenantKirchhoff(law) => Some(visitor.visit(law)),
-        AnySolid::AnisotropicSaintVenantKirchhoff(law) => Some(visitor.visit(law)),
-        AnySolid::Fung(law) => Some(visitor.visit(law)),
-        AnySolid::IsochoricOgden(law) => Some(visitor.visit(law)),
-        AnySolid::LinearElastic(law) => Some(visitor.visit(law)),
-        AnySolid::AnisotropicLinear(law) => Some(visitor.visit(law)),
-        _ => None,
-    }
+    LawOfStrain::of(solid).map(|law| visitor.visit(&law))
 }
 
 /// Declares the enum of the laws of a kind and chooses among them.

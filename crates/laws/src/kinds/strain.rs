@@ -4,14 +4,17 @@ use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent};
 use piola_continuum::{FirstPiola, SecondPiola};
 use piola_numerics::linear::matrix3::from_rows;
 use piola_solids::internal::{first_piola_numbers, packed};
-use piola_solids::{HolzapfelGasserOgden, Hyperelastic, ReinforcedNeoHookean, SolidsError};
+use piola_solids::{
+    AnisotropicSaintVenantKirchhoff, Fung, HolzapfelGasserOgden, Hyperelastic, ReinforcedNeoHookean,
+    SaintVenantKirchhoff, SolidsError,
+};
 use piola_tensor::internal::rows::product;
 
 use super::kind;
 use crate::methods::answers;
 
 kind! {
-    /// A built-in law of fibres, which gives S and ∂S/∂E: one kernel for P and ∂P/∂F of all.
+    /// A built-in law that gives S and ∂S/∂E: one kernel for P and ∂P/∂F of all.
     ///
     /// # Accuracy
     /// That of the law's S and ∂S/∂E; P = F S and ∂P/∂F add a few ulp.
@@ -31,6 +34,9 @@ kind! {
     LawOfStrain {
         HolzapfelGasserOgden(HolzapfelGasserOgden),
         ReinforcedNeoHookean(ReinforcedNeoHookean),
+        SaintVenantKirchhoff(SaintVenantKirchhoff),
+        AnisotropicSaintVenantKirchhoff(AnisotropicSaintVenantKirchhoff),
+        Fung(Fung),
     }
 }
 

@@ -11,7 +11,8 @@ use super::energy::{InvariantEnergy, Invariants, Slopes};
 pub(super) const SMALL: f64 = 0.25;
 
 /// Kinematic quantities of both stress and tangent.
-pub(super) struct Kinematics<T: Real> {
+#[derive(Debug)]
+pub struct InvariantKinematics<T: Real> {
     /// F.
     pub(super) gradient: Rows<T>,
     /// 1 where what follows is a difference from the reference, 0 where it is not.
@@ -19,7 +20,8 @@ pub(super) struct Kinematics<T: Real> {
     /// C − 1; C where the strain is large.
     pub(super) change: Symmetric<T>,
     pub(super) cofactor: Rows<T>,
-    pub(super) invariants: Invariants<T>,
+    /// The invariants.
+    pub invariants: Invariants<T>,
     /// F − Cof F where ∇u is moderate, computed from ∇u; F − F⁻ᵀ where only the strain is; F elsewhere.
     beyond: Rows<T>,
     /// Mask of moderate ∇u.
@@ -28,14 +30,26 @@ pub(super) struct Kinematics<T: Real> {
     turned: T::Mask,
 }
 
-impl<T: Real> Kinematics<T> {
+impl<T: Real> InvariantKinematics<T> {
     /// Errors are relative to the strain or to |∇u|², as a stress needs it: those of the invariants themselves, as an
     /// energy needs it, are those of [`invariants_of`].
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of<L: InvariantEnergy>(gradient: Rows<T>, displacement: Rows<T>, jacobian: T) -> Self {
-        let closed = Self::near::<L>(gradient, displacement);
+        if L::SECOND {
+            Self::with_invariants::<true>(gradient, displacement, jacobian)
+        } else {
+            Self::with_invariants::<false>(gradient, displacement, jacobian)
+        }
+    }
+
+    /// Those of a law that depends on I₂, or not.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[must_use]
+    pub fn with_invariants<const SECOND: bool>(gradient: Rows<T>, displacement: Rows<T>, jacobian: T) -> Self {
+        let closed = Self::closed::<SECOND>(gradient, displacement);
         let near = kernels::is_moderate(gradient, displacement);
-        if near.all() { closed } else { Self { near, turned: near, ..closed }.with_far::<L>(jacobian) }
+        // The forms for large strain only in the lanes that need them.
+        if near.all() { closed } else { Self { near, turned: near, ..closed }.completed::<SECOND>(jacobian) }
     }
 
     /// [`of`](Self::of) a deformation.
@@ -50,10 +64,12 @@ impl<T: Real> Kinematics<T> {
         if L::SECOND { Self::closed::<true>(gradient, h) } else { Self::closed::<false>(gradient, h) }
     }
 
+    /// Those of F and ∇u where they are [moderate](kernels::is_moderate), of a law that depends on I₂, or not.
     // Without optimisation a function of its own: each method of each law would hold two copies.
     #[cfg_attr(not(debug_assertions), inline(always))]
     #[cfg_attr(debug_assertions, inline(never))]
-    fn closed<const SECOND: bool>(gradient: Rows<T>, h: Rows<T>) -> Self {
+    #[must_use]
+    pub fn closed<const SECOND: bool>(gradient: Rows<T>, h: Rows<T>) -> Self {
         let (one, two) = (T::one(), T::lit(2.0));
         let change = kernels::right_cauchy_green_minus_one(h);
         let [a, b, c, x_12, x_23, x_13] = change.components;
@@ -106,11 +122,6 @@ impl<T: Real> Kinematics<T> {
 
     /// With the forms for large strain in the lanes that need them.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn with_far<L: InvariantEnergy>(self, jacobian: T) -> Self {
-        if L::SECOND { self.completed::<true>(jacobian) } else { self.completed::<false>(jacobian) }
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
     #[cfg_attr(debug_assertions, inline(never))]
     fn completed<const SECOND: bool>(self, jacobian: T) -> Self {
         let (one, three) = (T::one(), T::lit(3.0));
@@ -160,9 +171,16 @@ impl<T: Real> Kinematics<T> {
     /// at large strain P = 2 w₁ F + ∂W/∂J Cof F + 2 w₂ F (I₁ 1 − C).
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn first_piola<L: InvariantEnergy>(&self, slopes: &Slopes<T>) -> Rows<T> {
+        if L::SECOND { self.stress::<true>(slopes) } else { self.stress::<false>(slopes) }
+    }
+
+    /// P of the slopes of a law that depends on I₂, or not.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[must_use]
+    pub fn stress<const SECOND: bool>(&self, slopes: &Slopes<T>) -> Rows<T> {
         let (two, four) = (T::lit(2.0), T::lit(4.0));
         let mut stiffness = two * slopes.first;
-        if L::SECOND {
+        if SECOND {
             stiffness += four * slopes.second * self.shift;
         }
         let mut pressure = slopes.residual + stiffness * self.invariants.change;
@@ -172,7 +190,7 @@ impl<T: Real> Kinematics<T> {
         }
         let stress =
             sum(scaled(self.beyond, stiffness), scaled(self.cofactor, pressure * self.invariants.jacobian.recip()));
-        if !L::SECOND {
+        if !SECOND {
             return stress;
         }
         // The slope comes last: it waits for a root of J, and what is multiplied by it does not.

@@ -27,8 +27,13 @@ mod straight;
 mod tangent;
 
 pub use energy::{Curvatures, InvariantEnergy, Invariants, Slopes, invariants_of};
-use kinematics::Kinematics;
+#[doc(hidden)]
+pub use kinematics::InvariantKinematics;
 pub use measures::{kirchhoff, second_piola};
+#[doc(hidden)]
+pub use straight::square;
+#[doc(hidden)]
+pub use tangent::sum_of_terms;
 use tangent::tangent;
 
 /// J − 1 − ln J, never negative and of second order in the change of volume, without cancellation.
@@ -106,7 +111,7 @@ pub fn first_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Defo
     if L::STRAIGHT {
         return straight::first_piola(law, deformation);
     }
-    let kinematics = Kinematics::of_deformation::<L>(deformation);
+    let kinematics = InvariantKinematics::of_deformation::<L>(deformation);
     let slopes = law.slopes(&kinematics.invariants);
     FirstPiola(from_rows(kinematics.first_piola::<L>(&slopes)))
 }
@@ -165,7 +170,7 @@ pub fn first_piola_tangent<T: Real, L: InvariantEnergy>(
     if L::STRAIGHT {
         return packed::both(straight::first_piola_and_upper_triangle(law, deformation)).1;
     }
-    let kinematics = Kinematics::of_deformation::<L>(deformation);
+    let kinematics = InvariantKinematics::of_deformation::<L>(deformation);
     let (slopes, curvatures) = law.slopes_and_curvatures(&kinematics.invariants);
     tangent::<T, L>(&slopes, &curvatures, &kinematics)
 }
@@ -180,7 +185,7 @@ pub fn first_piola_and_tangent<T: Real, L: InvariantEnergy>(
     if L::STRAIGHT {
         return packed::both(straight::first_piola_and_upper_triangle(law, deformation));
     }
-    let kinematics = Kinematics::of_deformation::<L>(deformation);
+    let kinematics = InvariantKinematics::of_deformation::<L>(deformation);
     let (slopes, curvatures) = law.slopes_and_curvatures(&kinematics.invariants);
     let stress = FirstPiola(from_rows(kinematics.first_piola::<L>(&slopes)));
     (stress, tangent::<T, L>(&slopes, &curvatures, &kinematics))

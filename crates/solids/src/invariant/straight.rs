@@ -13,7 +13,7 @@ use piola_numerics::{Dual, Mask, Real};
 use piola_tensor::internal::rows::Rows;
 
 use super::energy::InvariantEnergy;
-use super::kinematics::Kinematics;
+use super::kinematics::InvariantKinematics;
 use super::tangent::tangent;
 use crate::packed;
 
@@ -27,13 +27,13 @@ struct Any<L>(L);
 struct NearAlong<L>(L);
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn stress<T: Real, L: InvariantEnergy>(law: &L, kinematics: &Kinematics<T>) -> [T; 9] {
+fn stress<T: Real, L: InvariantEnergy>(law: &L, kinematics: &InvariantKinematics<T>) -> [T; 9] {
     let slopes = law.slopes(&kinematics.invariants);
     packed::of_stress(kinematics.first_piola::<L>(&slopes))
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn both<T: Real, L: InvariantEnergy>(law: &L, kinematics: &Kinematics<T>) -> [T; 54] {
+fn both<T: Real, L: InvariantEnergy>(law: &L, kinematics: &InvariantKinematics<T>) -> [T; 54] {
     let (slopes, curvatures) = law.slopes_and_curvatures(&kinematics.invariants);
     let entries = tangent::<T, L>(&slopes, &curvatures, kinematics).0.components;
     packed::of_both(kinematics.first_piola::<L>(&slopes), &entries)
@@ -41,7 +41,8 @@ fn both<T: Real, L: InvariantEnergy>(law: &L, kinematics: &Kinematics<T>) -> [T;
 
 /// |∇u|² = tr (C − 1) − 2 tr ∇u, as it tells what is moderate.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn square<T: Real>(kinematics: &Kinematics<T>, h: Rows<T>) -> T {
+#[must_use]
+pub fn square<T: Real>(kinematics: &InvariantKinematics<T>, h: Rows<T>) -> T {
     kinematics.invariants.first - T::lit(2.0) * (h[0][0] + h[1][1] + h[2][2])
 }
 
@@ -49,7 +50,7 @@ impl<L: InvariantEnergy> Lanewise<18, 10> for Near<L> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 10] {
         let [f, h] = packed::gradients(inputs);
-        let kinematics = Kinematics::near::<L>(f, h);
+        let kinematics = InvariantKinematics::near::<L>(f, h);
         let [a, b, c, d, e, g, i, j, k] = stress(&self.0, &kinematics);
         [a, b, c, d, e, g, i, j, k, square(&kinematics, h)]
     }
@@ -59,7 +60,7 @@ impl<L: InvariantEnergy> Lanewise<18, 55> for Near<L> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 55] {
         let [f, h] = packed::gradients(inputs);
-        let kinematics = Kinematics::near::<L>(f, h);
+        let kinematics = InvariantKinematics::near::<L>(f, h);
         packed::with_one_more(both(&self.0, &kinematics), square(&kinematics, h))
     }
 }
@@ -68,7 +69,7 @@ impl<L: InvariantEnergy> Lanewise<19, 9> for Any<L> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 19]) -> [T; 9] {
         let ([f, h], jacobian) = packed::gradients_and_jacobian(inputs);
-        stress(&self.0, &Kinematics::of::<L>(f, h, jacobian))
+        stress(&self.0, &InvariantKinematics::of::<L>(f, h, jacobian))
     }
 }
 
@@ -76,7 +77,7 @@ impl<L: InvariantEnergy> Lanewise<19, 54> for Any<L> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 19]) -> [T; 54] {
         let ([f, h], jacobian) = packed::gradients_and_jacobian(inputs);
-        both(&self.0, &Kinematics::of::<L>(f, h, jacobian))
+        both(&self.0, &InvariantKinematics::of::<L>(f, h, jacobian))
     }
 }
 
@@ -87,7 +88,7 @@ impl<L: InvariantEnergy> Lanewise<27, 10> for NearAlong<L> {
         let gradient = along([[a, b, c], [d, e, f], [g, h, i]], [[s, t, u], [v, w, x], [y, z, last]]);
         let displacement = [[j, k, l], [m, n, o], [p, q, r]];
         let varied = along(displacement, [[s, t, u], [v, w, x], [y, z, last]]);
-        let kinematics = Kinematics::near::<L>(gradient, varied);
+        let kinematics = InvariantKinematics::near::<L>(gradient, varied);
         let [a, b, c, d, e, f, g, h, i] = stress(&self.0, &kinematics);
         let square = square(&kinematics, varied).value;
         [a.tangent, b.tangent, c.tangent, d.tangent, e.tangent, f.tangent, g.tangent, h.tangent, i.tangent, square]

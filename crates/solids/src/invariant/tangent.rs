@@ -7,7 +7,7 @@ use piola_tensor::FourthOrder;
 use piola_tensor::internal::rows::{Rows, product, product_transposed};
 
 use super::energy::{Curvatures, InvariantEnergy, Slopes};
-use super::kinematics::Kinematics;
+use super::kinematics::InvariantKinematics;
 
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn flat<T: Copy>([[a, b, c], [d, e, f], [g, h, i]]: Rows<T>) -> [T; 9] {
@@ -43,7 +43,7 @@ fn combined<T: Real>(alpha: T, a: &[T; 9], beta: T, b: &[T; 9]) -> [T; 9] {
 pub(super) fn tangent<T: Real, L: InvariantEnergy>(
     slopes: &Slopes<T>,
     curvatures: &Curvatures<T>,
-    kinematics: &Kinematics<T>,
+    kinematics: &InvariantKinematics<T>,
 ) -> FirstPiolaTangent<T> {
     if L::SECOND {
         if L::CURVED {
@@ -58,13 +58,15 @@ pub(super) fn tangent<T: Real, L: InvariantEnergy>(
     }
 }
 
+/// ∂P/∂F of a law that depends on I₂, or not, and has curvatures besides ∂²W/∂J², or not.
 // Without optimisation a function of its own: each of seven methods of each law would hold two copies of it.
 #[cfg_attr(not(debug_assertions), inline(always))]
 #[cfg_attr(debug_assertions, inline(never))]
-fn sum_of_terms<T: Real, const SECOND: bool, const CURVED: bool>(
+#[must_use]
+pub fn sum_of_terms<T: Real, const SECOND: bool, const CURVED: bool>(
     slopes: &Slopes<T>,
     curvatures: &Curvatures<T>,
-    kinematics: &Kinematics<T>,
+    kinematics: &InvariantKinematics<T>,
 ) -> FirstPiolaTangent<T> {
     let (one, two, four) = (T::one(), T::lit(2.0), T::lit(4.0));
     let invariants = &kinematics.invariants;

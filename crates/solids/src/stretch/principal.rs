@@ -57,14 +57,27 @@ impl<T: Real> Principal<T> {
 
     /// P = Σ βₐ/λₐ nₐ ⊗ Nₐ.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn first_piola(&self, analysis: &StretchAnalysis<T>) -> FirstPiola<T> {
-        let (n, m) = (analysis.spatial_axes(), analysis.material_axes());
+    pub(super) fn first_piola(&self, [n, m]: [&Rows<T>; 2]) -> FirstPiola<T> {
         let v = quotients(self.stress, self.stretches);
         FirstPiola(from_rows([
-            [dyads(v, &n, &m, 0, 0), dyads(v, &n, &m, 0, 1), dyads(v, &n, &m, 0, 2)],
-            [dyads(v, &n, &m, 1, 0), dyads(v, &n, &m, 1, 1), dyads(v, &n, &m, 1, 2)],
-            [dyads(v, &n, &m, 2, 0), dyads(v, &n, &m, 2, 1), dyads(v, &n, &m, 2, 2)],
+            [dyads(v, n, m, 0, 0), dyads(v, n, m, 0, 1), dyads(v, n, m, 0, 2)],
+            [dyads(v, n, m, 1, 0), dyads(v, n, m, 1, 1), dyads(v, n, m, 1, 2)],
+            [dyads(v, n, m, 2, 0), dyads(v, n, m, 2, 1), dyads(v, n, m, 2, 2)],
         ]))
+    }
+
+    /// Its fifteen numbers.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) const fn numbers(&self) -> [T; 15] {
+        let ([a, b, c], [d, e, f], [x, y, z]) = (self.stretches, self.stress, self.secant);
+        let [g, h, i, j, k, l] = self.stiffness;
+        [a, b, c, d, e, f, g, h, i, j, k, l, x, y, z]
+    }
+
+    /// Of its numbers.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(super) const fn of_numbers([a, b, c, d, e, f, g, h, i, j, k, l, x, y, z]: [T; 15]) -> Self {
+        Self { stretches: [a, b, c], stress: [d, e, f], stiffness: [g, h, i, j, k, l], secant: [x, y, z] }
     }
 
     /// Σ valueₐ axisₐ ⊗ axisₐ.
@@ -167,8 +180,7 @@ fn dyads<T: Real>(v: [T; 3], n: &Rows<T>, m: &Rows<T>, i: usize, j: usize) -> T 
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn tangent<T: Real>(principal: &Principal<T>, analysis: &StretchAnalysis<T>) -> FirstPiolaTangent<T> {
-    let (n, m) = (analysis.spatial_axes(), analysis.material_axes());
+pub(super) fn tangent<T: Real>(principal: &Principal<T>, [n, m]: [&Rows<T>; 2]) -> FirstPiolaTangent<T> {
     let [l, k, j] = principal.stretches;
     let reciprocal = [l.recip(), k.recip(), j.recip()];
     // nₐ ⊗ Nᵦ as nine entries, row 3a + b.

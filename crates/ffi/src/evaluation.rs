@@ -1,0 +1,284 @@
+//! The loop over the points of a batch.
+
+use piola::continuum::DeformationGradient;
+use piola::solids::{AnySolid, Hyperelastic, SolidsError};
+
+use crate::FfiError;
+use crate::blocks::{to_blocks, to_points};
+use crate::conversions::{
+    ALL_NINE, BY_ROWS, CauchyOfFirstPiola, JaumannOfFirstPiola, MaterialOfFirstPiola, SQUARE, SecondPiolaOfFirstPiola,
+    TruesdellOfFirstPiola,
+};
+use crate::measures::{StressMeasure, TangentMeasure, VoigtNumbering};
+use crate::stages::{Kind, MOST, Number, WIDTH, run};
+
+/// Points from which on, with feature `rayon`, a batch runs on all threads.
+#[cfg(feature = "rayon")]
+const PARALLEL: usize = 1 << 13;
+
+/// What is computed.
+#[derive(Clone, Copy)]
+pub(crate) struct Wanted {
+    pub(crate) stress: Option<StressMeasure>,
+    pub(crate) tangent: Option<(TangentMeasure, VoigtNumbering)>,
+}
+
+/// Some of the points of a batch, from number `first` on; an array is empty where its numbers are not wanted.
+pub(crate) struct Part<'a> {
+    pub(crate) first: usize,
+    pub(crate) f: &'a [[f64; 9]],
+    pub(crate) stresses: &'a mut [[f64; 9]],
+    pub(crate) tangents: &'a mut [f64],
+}
+
+impl Part<'_> {
+    /// The first `middle` points, and the others.
+    fn split(&mut self, middle: usize, numbers: usize) -> (Part<'_>, Part<'_>) {
+        let (f, other_f) = self.f.split_at(middle);
+        let (stresses, other_stresses) = self.stresses.split_at_mut(middle.min(self.stresses.len()));
+        let (tangents, other_tangents) = self.tangents.split_at_mut((middle * numbers).min(self.tangents.len()));
+        let head = Part { first: self.first, f, stresses, tangents };
+        (head, Part { first: self.first + middle, f: other_f, stresses: other_stresses, tangents: other_tangents })
+    }
+}
+
+/// Points that were refused: how many, and the first of them.
+#[derive(Default)]
+pub(crate) struct Bad {
+    count: usize,
+    first: Option<(usize, SolidsError)>,
+}
+
+impl Bad {
+    /// Notes a point; points are noted in order.
+    pub(crate) fn note(&mut self, index: usize, error: SolidsError) {
+        self.count += 1;
+        self.first.get_or_insert((index, error));
+    }
+
+    /// With those of later points.
+    #[cfg(feature = "rayon")]
+    fn and(self, later: Self) -> Self {
+        Self { count: self.count + later.count, first: self.first.or(later.first) }
+    }
+
+    pub(crate) fn finish(self, count: usize) -> Result<(), FfiError> {
+        match self.first {
+            None => Ok(()),
+            Some((index, error)) => Err(FfiError::BadPoints { bad: self.count, count, index, error }),
+        }
+    }
+}
+
+/// F of a point, if it is one and the law has an answer there.
+pub(crate) fn deformation(law: &AnySolid, f: &[f64; 9]) -> Result<DeformationGradient, SolidsError> {
+    let [a, b, c, d, e, g, h, i, j] = *f;
+    let deformation = DeformationGradient::from_rows([[a, b, c], [d, e, g], [h, i, j]])?;
+    law.check(&deformation)?;
+    Ok(deformation)
+}
+
+/// A law and what is wanted of it.
+pub(crate) struct Evaluation<'a> {
+    law: &'a AnySolid,
+    kind: Kind<'a>,
+    wanted: Wanted,
+}
+
+/// Memory for the blocks that pass through the stages together.
+struct Memory<'a> {
+    deformations: &'a mut [[Number; 9]],
+    first: &'a mut [Number],
+    second: &'a mut [Number],
+    answers: &'a mut [Number],
+    converted: &'a mut [Number],
+}
+
+/// Runs `$body` with memory for as many blocks, of as many numbers each.
+macro_rules! with_memory {
+    ($blocks:expr, [$first:literal, $second:literal, $answers:literal, $converted:literal], |$memory:ident| $body:expr) => {{
+        let zero = [0.0; WIDTH];
+        let $memory = Memory {
+            deformations: &mut [[zero; 9]; $blocks],
+            first: &mut [zero; $first * $blocks],
+            second: &mut [zero; $second * $blocks],
+            answers: &mut [zero; $answers * $blocks],
+            converted: &mut [zero; $converted * $blocks],
+        };
+        $body
+    }};
+}
+
+impl<'a> Evaluation<'a> {
+    pub(crate) fn new(law: &'a AnySolid, wanted: Wanted) -> Result<Self, FfiError> {
+        let Some(kind) = Kind::of(law) else {
+            // A law that was added to the enum and has no kind yet: no numbers rather than wrong ones.
+            let message = "it is not offered to other languages".to_owned();
+            return Err(FfiError::Unreadable { what: "law of a solid", message });
+        };
+        Ok(Self { law, kind, wanted })
+    }
+
+    /// Whether the law is linear elasticity, which knows no difference between the measures: each stress is σ, each tangent of 36
+    /// numbers ∂σ/∂ε.
+    const fn is_linear(&self) -> bool {
+        matches!(self.kind, Kind::Linear(_))
+    }
+
+    /// Numbers of a tangent.
+    fn numbers(&self) -> usize {
+        self.wanted.tangent.map_or(0, |(measure, _)| measure.numbers())
+    }
+
+    /// Computes the numbers of all points.
+    pub(crate) fn run(&self, part: Part<'_>) -> Result<(), FfiError> {
+        let count = part.f.len();
+        self.divided(part).finish(count)
+    }
+
+    #[cfg(feature = "rayon")]
+    fn divided(&self, mut part: Part<'_>) -> Bad {
+        if part.f.len() < PARALLEL || rayon::current_num_threads() < 2 {
+            return self.part(part);
+        }
+        let half = (part.f.len() / 2).next_multiple_of(MOST * WIDTH);
+        let (head, tail) = part.split(half, self.numbers());
+        let (head, tail) = rayon::join(|| self.divided(head), || self.divided(tail));
+        head.and(tail)
+    }
+
+    #[cfg(not(feature = "rayon"))]
+    fn divided(&self, part: Part<'_>) -> Bad {
+        self.part(part)
+    }
+
+    /// With memory for what is wanted: few points do not pay for many blocks.
+    #[expect(clippy::large_stack_arrays, reason = "61 kB, and nothing is allocated")]
+    fn part(&self, part: Part<'_>) -> Bad {
+        match (self.wanted.tangent.is_some(), part.f.len() <= WIDTH) {
+            (false, false) => with_memory!(MOST, [7, 5, 10, 6], |memory| self.blocks(part, memory)),
+            (false, true) => with_memory!(1, [7, 5, 10, 6], |memory| self.blocks(part, memory)),
+            (true, false) => with_memory!(MOST, [10, 34, 55, 21], |memory| self.blocks(part, memory)),
+            (true, true) => with_memory!(1, [10, 34, 55, 21], |memory| self.blocks(part, memory)),
+        }
+    }
+
+    /// As many blocks at a time as there is memory for.
+    fn blocks(&self, mut part: Part<'_>, mut memory: Memory<'_>) -> Bad {
+        let mut bad = Bad::default();
+        let most = memory.deformations.len() * WIDTH;
+        let places = self.wanted.tangent.map(|(_, numbering)| numbering.places());
+        let mut rest = part.f.len();
+        while 0 < rest {
+            let count = most.min(rest);
+            let done = part.f.len() - rest;
+            let (_, mut from_here) = part.split(done, self.numbers());
+            let (mut here, _) = from_here.split(count, self.numbers());
+            self.chunk(&mut here, &mut memory, places.as_ref(), &mut bad);
+            rest -= count;
+        }
+        bad
+    }
+
+    /// Points for which there is memory.
+    fn chunk(&self, part: &mut Part<'_>, memory: &mut Memory<'_>, places: Option<&[usize; 36]>, bad: &mut Bad) {
+        let points = part.f.len();
+        let blocks = points.div_ceil(WIDTH);
+        let f = &mut memory.deformations[..blocks];
+        to_blocks(part.f, f);
+        let stride = if self.wanted.tangent.is_some() {
+            self.kind.both(points, f, [memory.first, memory.second, memory.answers]);
+            55
+        } else {
+            self.kind.stress(points, f, [memory.first, memory.second, memory.answers]);
+            10
+        };
+        let mut refused = [false; MOST * WIDTH];
+        for (index, (f, refused)) in part.f.iter().zip(&mut refused).enumerate() {
+            let answer = &memory.answers[index / WIDTH * stride..][..stride];
+            let (stress, certain) = (answer[0][index % WIDTH], answer[stride - 1][index % WIDTH]);
+            if !(stress + certain).is_finite() {
+                let checked = deformation(self.law, f).and_then(|_| {
+                    if stress.is_finite() { Ok(()) } else { Err(SolidsError::Overflow { answer: "stress" }) }
+                });
+                if let Err(error) = checked {
+                    bad.note(part.first + index, error);
+                    *refused = true;
+                }
+            }
+        }
+        if let Some(measure) = self.wanted.stress {
+            self.stress(measure, points, stride, memory, part.stresses);
+        }
+        if let (Some((measure, _)), Some(places)) = (self.wanted.tangent, places) {
+            self.tangent(measure, places, points, memory, part.tangents);
+        }
+        let numbers = self.numbers();
+        for index in (0..points).filter(|index| refused[*index]) {
+            if let Some(stress) = part.stresses.get_mut(index) {
+                *stress = [f64::NAN; 9];
+            }
+            part.tangents[numbers * index..][..numbers].fill(f64::NAN);
+        }
+    }
+
+    fn stress(
+        &self,
+        measure: StressMeasure,
+        points: usize,
+        stride: usize,
+        memory: &mut Memory<'_>,
+        out: &mut [[f64; 9]],
+    ) {
+        if measure == StressMeasure::FirstPiola || self.is_linear() {
+            return to_points(memory.answers, stride, &BY_ROWS, out);
+        }
+        let blocks = points.div_ceil(WIDTH);
+        // P alone, as conversions take it.
+        let stress = if stride == 10 {
+            &*memory.answers
+        } else {
+            let of_blocks = memory.answers.chunks(stride).zip(memory.first.chunks_mut(10)).take(blocks);
+            of_blocks.for_each(|(from, to)| to[..9].copy_from_slice(&from[..9]));
+            &*memory.first
+        };
+        let (f, converted) = (&memory.deformations[..blocks], &mut *memory.converted);
+        if measure == StressMeasure::Cauchy {
+            run::<_, 10, 6>(&CauchyOfFirstPiola, points, f, stress, converted);
+        } else {
+            run::<_, 10, 6>(&SecondPiolaOfFirstPiola, points, f, stress, converted);
+        }
+        to_points(converted, 6, &ALL_NINE, out);
+    }
+
+    fn tangent(
+        &self,
+        measure: TangentMeasure,
+        places: &[usize; 36],
+        points: usize,
+        memory: &mut Memory<'_>,
+        out: &mut [f64],
+    ) {
+        if measure == TangentMeasure::FirstPiola {
+            return to_points(memory.answers, 55, &SQUARE, out.as_chunks_mut().0);
+        }
+        let blocks = points.div_ceil(WIDTH);
+        let f = &mut memory.deformations[..blocks];
+        if self.is_linear() {
+            // ∂σ/∂ε is ∂P/∂F itself: of F = 1, and there is no stress to take off.
+            for block in &mut *f {
+                *block = core::array::from_fn(|k| [if k % 4 == 0 { 1.0 } else { 0.0 }; WIDTH]);
+            }
+            for answers in memory.answers.chunks_mut(55) {
+                answers[..9].fill([0.0; WIDTH]);
+            }
+        }
+        let (answers, converted) = (&*memory.answers, &mut *memory.converted);
+        match measure {
+            TangentMeasure::Truesdell => run::<_, 55, 21>(&TruesdellOfFirstPiola, points, f, answers, converted),
+            TangentMeasure::Jaumann => run::<_, 55, 21>(&JaumannOfFirstPiola, points, f, answers, converted),
+            _ => run::<_, 55, 21>(&MaterialOfFirstPiola, points, f, answers, converted),
+        }
+        to_points(converted, 21, places, out.as_chunks_mut().0);
+    }
+}
