@@ -111,8 +111,8 @@ impl<T: Real> Composition<T> {
     crate::unobserved_run!(F: Separable<T>, field: &mut F, IntegratorsError<F::Error>);
 
     /// Integrates to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is
-    /// earlier than the state's time. The observer sees every step and may stop the run. Continued to the same end, a run whose forces
-    /// do not depend on the time goes on with the same steps, to the last bit.
+    /// earlier than the state's time. The observer sees every step and may stop the run. Continued to the same end, a
+    /// stopped run goes on with the same steps, to the last bit.
     ///
     /// # Errors
     /// The state does not fit or is not finite, the step is too small to advance the time, or the field fails
@@ -129,8 +129,9 @@ impl<T: Real> Composition<T> {
         self.begin(field.freedom());
         let mut report = Report::begin();
         for number in 1..=steps.count - taken {
-            report.evaluations += self.advance(field, state, steps.length)?;
-            state.set_time(steps.time(taken + number));
+            let time = steps.time(taken + number);
+            report.evaluations += self.advance(field, state, steps.length, time)?;
+            state.set_time(time);
             report.steps = number;
             if observer(Step { number, time: state.time, values: &state.values }).is_break() {
                 report.ending = Ending::Stopped;
@@ -150,16 +151,17 @@ impl<T: Real> Composition<T> {
         self.next.1.resize(2 * n, T::zero());
     }
 
-    /// Makes one step of length h of a run that was begun, on the state's values; its time is the caller's. Returns the number of
-    /// evaluations of the force.
+    /// Makes one step of length h, which ends at the time `end`, of a run that was begun, on the state's values; the caller sets the
+    /// state's time to `end`. Returns the number of evaluations of the force.
     #[doc(hidden)]
     pub fn advance<F: Separable<T>>(
         &mut self,
         field: &mut F,
         state: &mut State<T>,
         h: f64,
+        end: f64,
     ) -> Result<u64, IntegratorsError<F::Error>> {
-        let evaluations = self.make_step(field, state, h).inspect_err(|_| self.continued = false)?;
+        let evaluations = self.make_step(field, state, h, end).inspect_err(|_| self.continued = false)?;
         core::mem::swap(&mut state.values, &mut self.next.0);
         core::mem::swap(&mut state.carry, &mut self.next.1);
         Ok(evaluations)
@@ -171,9 +173,12 @@ impl<T: Real> Composition<T> {
         field: &mut F,
         state: &State<T>,
         h: f64,
+        end: f64,
     ) -> Result<u64, IntegratorsError<F::Error>> {
         let n = self.rate.len();
         let (start, kicks) = (state.time, self.count - 1);
+        // The end of a step and the start of the next are one moment: a force that is kept is that of a run begun anew.
+        let moment = |part: f64| if part.total_cmp(&1.0).is_eq() { end } else { start + part * h };
         let (rate, force) = (&mut self.rate[..], &mut self.force[..]);
         let (q, p) = self.next.0.split_at_mut(n);
         let (q_carry, p_carry) = self.next.1.split_at_mut(n);
@@ -188,7 +193,7 @@ impl<T: Real> Composition<T> {
                 q.copy_from_slice(q_start);
                 q_carry.copy_from_slice(q_carry_start);
             } else {
-                let t = start + drift_time * h;
+                let t = moment(drift_time);
                 let momentum = if number == 0 { p_start } else { &*p };
                 field.velocity(t, momentum, rate).map_err(|source| IntegratorsError::Field { t, source })?;
                 if number == 0 {
@@ -200,7 +205,7 @@ impl<T: Real> Composition<T> {
             if number == 0 && kick_first && self.continued {
                 evaluations -= 1;
             } else {
-                let t = start + kick_time * h;
+                let t = moment(kick_time);
                 field.force(t, q, force).map_err(|source| IntegratorsError::Field { t, source })?;
                 check_finite("rate", Some(start), force)?;
             }
@@ -213,7 +218,7 @@ impl<T: Real> Composition<T> {
         self.continued = kick_first;
         if !kick_first {
             let SplittingStage { drift, drift_time, .. } = self.stages[kicks];
-            let t = start + drift_time * h;
+            let t = moment(drift_time);
             field.velocity(t, p, rate).map_err(|source| IntegratorsError::Field { t, source })?;
             update(q, q_carry, rate, drift * h);
         }
