@@ -56,6 +56,12 @@ use crate::{Ending, IntegratorsError, Order, Report, Separable, SplittingScheme,
 pub struct Composition<T = f64> {
     scheme: SplittingScheme,
     step: f64,
+    splitter: Splitter<T>,
+}
+
+/// The steps of a splitting, and the memory of a run.
+#[derive(Clone, Debug)]
+pub(crate) struct Splitter<T = f64> {
     stages: [SplittingStage; MOST_STAGES],
     count: usize,
     rate: Vec<T>,
@@ -95,9 +101,7 @@ impl<T: Real> Composition<T> {
     /// ```
     pub fn with_scheme(scheme: SplittingScheme, step: f64) -> Result<Self, IntegratorsError> {
         check_step(step)?;
-        let (stages, count) = scheme.table();
-        let next = (Vec::new(), Vec::new());
-        Ok(Self { scheme, step, stages, count, rate: Vec::new(), force: Vec::new(), continued: false, next })
+        Ok(Self { scheme, step, splitter: Splitter::new(scheme.table()) })
     }
 
     /// The splitting.
@@ -126,11 +130,11 @@ impl<T: Real> Composition<T> {
     ) -> Result<Report, IntegratorsError<F::Error>> {
         check_run(2 * field.freedom(), state, end)?;
         let (steps, taken) = state.begin_equal_steps(end, self.step)?;
-        self.begin(field.freedom());
+        self.splitter.begin(field.freedom());
         let mut report = Report::begin();
         for number in 1..=steps.count - taken {
             let time = steps.time(taken + number);
-            report.evaluations += self.advance(field, state, steps.length, time)?;
+            report.evaluations += self.splitter.advance(field, state, steps.length, time)?;
             state.set_time(time);
             report.steps = number;
             if observer(Step { number, time: state.time, values: &state.values }).is_break() {
@@ -144,6 +148,30 @@ impl<T: Real> Composition<T> {
     /// Begins a run of n degrees of freedom.
     #[doc(hidden)]
     pub fn begin(&mut self, n: usize) {
+        self.splitter.begin(n);
+    }
+
+    /// Makes one step: see [`Splitter::advance`].
+    #[doc(hidden)]
+    pub fn advance<F: Separable<T>>(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        h: f64,
+        end: f64,
+    ) -> Result<u64, IntegratorsError<F::Error>> {
+        self.splitter.advance(field, state, h, end)
+    }
+}
+
+impl<T: Real> Splitter<T> {
+    pub(crate) const fn new((stages, count): ([SplittingStage; MOST_STAGES], usize)) -> Self {
+        let next = (Vec::new(), Vec::new());
+        Self { stages, count, rate: Vec::new(), force: Vec::new(), continued: false, next }
+    }
+
+    /// Begins a run of n degrees of freedom.
+    pub(crate) fn begin(&mut self, n: usize) {
         self.rate.resize(n, T::zero());
         self.force.resize(n, T::zero());
         self.continued = false;
@@ -153,8 +181,10 @@ impl<T: Real> Composition<T> {
 
     /// Makes one step of length h, which ends at the time `end`, of a run that was begun, on the state's values; the caller sets the
     /// state's time to `end`. Returns the number of evaluations of the force.
-    #[doc(hidden)]
-    pub fn advance<F: Separable<T>>(
+    ///
+    /// # Errors
+    /// The field fails or gives a rate that is not finite; the state is then left alone.
+    pub(crate) fn advance<F: Separable<T>>(
         &mut self,
         field: &mut F,
         state: &mut State<T>,
