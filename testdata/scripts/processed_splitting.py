@@ -3,8 +3,8 @@
 The kernel, b1 a1 b2 a2 ... symmetric with seven forces, obeys the three conditions that no processor can take away (one of order
 three, two of order five, beside the two sums). Of the kernels that do, it has a small error of order seven: a search from random
 starts minimised the norm of the five combinations of order seven that no processor can take away, in the free Lie algebra of drift and
-kick without [kick, [kick, [kick, drift]]]. The processor, drifts and kicks in turn whose sums vanish, was then found by least squares
-from random starts; of those found it is the one with the smallest coefficients.
+kick without [kick, [kick, [kick, drift]]]. The processor, drifts and kicks in turn whose sums vanish, was then found by Newton's method
+with continuation, from random starts: its logarithm is the one that takes away all that a processor can, up to order seven.
 
 This script takes the found values as the start of Newton's method on all order conditions of Nystrom's trees up to order six of
 processor, kernel and inverse processor together, in 60 digits, with the smallest correction.
@@ -21,9 +21,11 @@ KERNEL = [
     "0.31076000917312235",
 ]
 PROCESSOR = [
-    "0.012262607063967609", "0.11827721279762003", "-0.1420707606204252", "0.130020472780417", "0.0707684011219414",
-    "-0.15957578808746914", "0.0188008879515044", "-0.16111576881264394", "0.04972425572192814", "-0.07434050874319247",
-    "0.13050806257159955", "-0.09185447733403154", "-0.09827121279493563",
+    "-0.04634007358638243", "0.1361239242121275", "-0.25301825560179564", "0.030611421782795602", "0.2003036507075846",
+    "-0.1368955000268619", "-0.5002897977667905", "-0.00226608979302667", "0.6627834331824901", "-0.03015089338619035",
+    "0.6478698393606178", "-0.2666956258369578", "-0.23156336040679348", "0.044903975943058914", "0.28190289578473604",
+    "0.2961277556470864", "0.038087738077455476", "-0.5188058246345564", "-0.2609752471384999", "-0.01513749771700412",
+    "0.2509934654940514",
 ]
 FREE = len(KERNEL)
 

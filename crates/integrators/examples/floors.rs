@@ -213,23 +213,38 @@ fn table<M: Motion>(name: &str, motion: M, start: [f64; 4], end: f64) -> Result<
     GaussRadau15::to_rounding().integrate_to(&mut equations.clone(), &mut reference, end)?;
     let reference = reference.values;
     let mut curves = vec![
-        ("Gauss–Legendre 16", curve(&reference, start, |tolerance, state| {
-            GaussLegendre16::new(tolerance).integrate_to(&mut equations.clone(), state, end)
-        })?),
-        ("Dormand–Prince 8(5,3)", curve(&reference, start, |tolerance, state| {
-            DormandPrince853::new(tolerance).integrate_to(&mut equations.clone(), state, end)
-        })?),
-        ("Verner 9(8)", curve(&reference, start, |tolerance, state| {
-            Verner98::new(tolerance).integrate_to(&mut equations.clone(), state, end)
-        })?),
+        (
+            "Gauss–Legendre 16",
+            curve(&reference, start, |tolerance, state| {
+                GaussLegendre16::new(tolerance).integrate_to(&mut equations.clone(), state, end)
+            })?,
+        ),
+        (
+            "Dormand–Prince 8(5,3)",
+            curve(&reference, start, |tolerance, state| {
+                DormandPrince853::new(tolerance).integrate_to(&mut equations.clone(), state, end)
+            })?,
+        ),
+        (
+            "Verner 9(8)",
+            curve(&reference, start, |tolerance, state| {
+                Verner98::new(tolerance).integrate_to(&mut equations.clone(), state, end)
+            })?,
+        ),
     ];
     if !M::VELOCITY_DEPENDENT {
-        curves.push(("Nyström 8(6)", curve(&reference, start, |tolerance, state| {
-            Nystrom86::new(tolerance).integrate_to(&mut equations.clone(), state, end)
-        })?));
-        curves.push(("Nyström 12(10)", curve(&reference, start, |tolerance, state| {
-            Nystrom1210::new(tolerance).integrate_to(&mut equations.clone(), state, end)
-        })?));
+        curves.push((
+            "Nyström 8(6)",
+            curve(&reference, start, |tolerance, state| {
+                Nystrom86::new(tolerance).integrate_to(&mut equations.clone(), state, end)
+            })?,
+        ));
+        curves.push((
+            "Nyström 12(10)",
+            curve(&reference, start, |tolerance, state| {
+                Nystrom1210::new(tolerance).integrate_to(&mut equations.clone(), state, end)
+            })?,
+        ));
     }
     let (one, eight) = evaluation(motion, start);
     for error in [1e-6, 1e-8, 1e-10, 1e-12] {

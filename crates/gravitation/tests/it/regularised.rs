@@ -104,9 +104,9 @@ fn very_long_ellipse_costs_two_or_three_times_a_short_one() {
             Tol::stated(1e-14, "3πN² times a hundredth of an ulp of the energy").times(revolutions * revolutions);
         assert_close_at_scale(&format!("e = {eccentricity}"), &relative, &[far, 0.0, 0.0], far, tolerance);
         assert_close_at_scale("centre", &[0.5 * (first[2] + second[2])], &[0.125 * time], time, Tol::ulps(64.0));
-        // A step that ends near the pericentre, where the kinetic energy is 10⁶ times the energy, rounds there.
+        // Steps that end near the pericentre, where the kinetic energy is 10⁶ times the energy, round there: it walks at random.
         let change = bodies.invariants(&state.values).energy / energy - 1.0;
-        assert!(change.abs() < 1e-10, "energy changed by {change}");
+        assert!(change.abs() < 3e-12 * revolutions.sqrt(), "energy changed by {change}");
     }
     assert!(steps[1] < 3.0 * steps[0], "{steps:?}");
 }

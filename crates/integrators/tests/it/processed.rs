@@ -19,46 +19,49 @@ fn method(step: f64) -> ProcessedSplitting {
 /// Processor, kernel and inverse processor as one splitting, whose steps are not symmetric.
 #[test]
 fn the_processed_splitting_obeys_all_conditions() {
-    assert_conditions("processed", ProcessedSplitting::<f64>::stages().into_iter().flatten(), 6);
+    assert_conditions("processed", ProcessedSplitting::<f64>::stages().into_iter().flatten(), 6, 2e-15);
 }
 
-/// Over two decades and more, within a tenth: on an oscillator by its phase, and on an ellipse.
+/// Over two decades and more, within a tenth: the phase of an oscillator, and a force with a time, which the processor too must meet at
+/// its moment.
 #[test]
 fn errors_fall_with_the_sixth_power() {
     let mut oscillator = separable(1, |_t, q: &[f64], force: &mut [f64]| force[0] = -q[0]);
-    let steps = [0.4, 0.32, 0.25, 0.2, 0.16];
+    let steps = [400, 500, 640, 800, 1000].map(|count: u32| 100.0 / f64::from(count));
     let errors = steps.map(|h| {
         let mut state = State::new(0.0, vec![1.0, 0.0]).unwrap();
         method(h).integrate_to(&mut oscillator, &mut state, 100.0).unwrap();
         (state.values[0] - 100.0_f64.cos()).hypot(state.values[1] + 100.0_f64.sin())
     });
-    assert!(99.0 * errors[4] < errors[0], "{errors:?}");
+    assert!(100.0 * errors[4] < errors[0], "{errors:?}");
     assert_order("oscillator", &steps, &errors, 6.0, 0.1);
-    let steps = [0.1, 0.08, 0.0625, 0.05, 0.04];
+    // q̈ = −q + cos 2t: q = cos t + (cos t − cos 2t)/3 from q = 1, q̇ = 0.
+    let mut driven = separable(1, |t: f64, q: &[f64], force: &mut [f64]| force[0] = -q[0] + (2.0 * t).cos());
+    let ((s1, c1), (s2, c2)) = (6.0_f64.sin_cos(), 12.0_f64.sin_cos());
+    let exact = [c1 + (c1 - c2) / 3.0, -s1 + (2.0 * s2 - s1) / 3.0];
+    let steps = [60, 80, 100, 120, 150].map(|count: u32| 6.0 / f64::from(count));
+    let errors = steps.map(|h| {
+        let mut state = State::new(0.0, vec![1.0, 0.0]).unwrap();
+        method(h).integrate_to(&mut driven, &mut state, 6.0).unwrap();
+        (state.values[0] - exact[0]).abs().max((state.values[1] - exact[1]).abs())
+    });
+    assert!(100.0 * errors[4] < errors[0], "{errors:?}");
+    assert_order("driven", &steps, &errors, 6.0, 0.1);
+}
+
+/// On an ellipse, where all conditions count; the eighth power, of the other sign, is not small yet.
+#[test]
+fn errors_on_an_ellipse_fall_with_the_sixth_power() {
+    let steps = [125, 160, 200, 250].map(|count: u32| 5.0 / f64::from(count));
     let errors = steps.map(|h| {
         let mut state = start(0.3);
         method(h).integrate_to(&mut kepler(), &mut state, 5.0).unwrap();
         relative_error(&state.values, &kepler_at(0.3, 5.0))
     });
-    assert!(99.0 * errors[4] < errors[0], "{errors:?}");
-    assert_order("ellipse", &steps, &errors, 6.0, 0.1);
+    assert_order("ellipse", &steps, &errors, 6.0, 0.5);
 }
 
-/// The force has a time, also in the processor.
-#[test]
-fn a_driven_oscillator_has_order_six() {
-    // q̈ = −q + cos 2t: q = cos t + (cos t − cos 2t)/3 from q = 1, q̇ = 0.
-    let mut driven = separable(1, |t: f64, q: &[f64], force: &mut [f64]| force[0] = -q[0] + (2.0 * t).cos());
-    let steps = [0.2, 0.16, 0.125, 0.1, 0.08];
-    let errors = steps.map(|h| {
-        let mut state = State::new(0.0, vec![1.0, 0.0]).unwrap();
-        method(h).integrate_to(&mut driven, &mut state, 6.0).unwrap();
-        (state.values[0] - 6.0_f64.cos() - (6.0_f64.cos() - 12.0_f64.cos()) / 3.0).abs()
-    });
-    assert_order("driven", &steps, &errors, 6.0, 0.2);
-}
-
-/// What is shown does not change the run, and costs the processor's seven forces.
+/// What is shown does not change the run, and costs the processor's eleven forces.
 #[test]
 fn shown_states_are_those_of_runs_that_end_there() {
     let (mut seen, mut state) = (Vec::new(), start(0.3));
@@ -68,8 +71,8 @@ fn shown_states_are_those_of_runs_that_end_there() {
             ControlFlow::Continue(())
         })
         .unwrap();
-    // One force begins the kernel's first step, and seven each go to the start and to ten states.
-    assert_eq!((report.steps, report.evaluations, seen.len()), (80, 80 * 7 + 1 + 7 + 10 * 7, 10));
+    // One force begins the kernel's first step, and eleven each go to the start and to ten states.
+    assert_eq!((report.steps, report.evaluations, seen.len()), (80, 80 * 7 + 1 + 11 + 10 * 11, 10));
     for (number, values) in &seen {
         let mut other = start(0.3);
         method(0.125).integrate_to(&mut kepler(), &mut other, 0.125 * *number as f64).unwrap();
@@ -138,7 +141,8 @@ fn a_failed_run_leaves_the_last_complete_step() {
     let mut bounded =
         separable(1, |t: f64, _q: &[f64], force: &mut [f64]| force[0] = if t < 1.0 { 0.0 } else { f64::NAN });
     let mut state = State::new(0.0, vec![0.0, 1.0]).unwrap();
-    let error = method(0.125).integrate_to(&mut bounded, &mut state, 3.0).unwrap_err();
+    let error =
+        method(0.125).integrate(&mut bounded, &mut state, 3.0, 1, |_step| ControlFlow::Continue(())).unwrap_err();
     assert!(matches!(error, IntegratorsError::NotFinite { quantity: "rate", index: 0, t: Some(_), .. }), "{error:?}");
     assert!(0.5 < state.time && state.time < 1.0 && (state.values[0] - state.time).abs() < 1e-15, "{state:?}");
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {

@@ -126,7 +126,7 @@ fn weights(tree: &[Child], kicks: &[(f64, DoubleDouble)]) -> Vec<DoubleDouble> {
 
 /// Asserts Σ bᵢ Φᵢ(tree) = ∫ exact(tree)(s) ds for all trees of Nyström's up to the order; positions follow, because
 /// a splitting is symplectic. The next order fails.
-pub(crate) fn assert_conditions(name: &str, stages: impl Iterator<Item = SplittingStage>, order: usize) {
+pub(crate) fn assert_conditions(name: &str, stages: impl Iterator<Item = SplittingStage>, order: usize, bound: f64) {
     let mut at = lit(0.0);
     let kicks: Vec<(f64, DoubleDouble)> = stages
         .map(|stage| {
@@ -142,7 +142,7 @@ pub(crate) fn assert_conditions(name: &str, stages: impl Iterator<Item = Splitti
             let sum = kicks.iter().zip(&values).fold(lit(0.0), |sum, (&(b, _), &value)| sum + lit(b) * value);
             let rest = (sum - exact(&tree) / lit(size as f64)).primal(0);
             if size <= order {
-                assert!(rest.abs() < 1e-15, "{name}, {tree:?}: {rest:e}");
+                assert!(rest.abs() < bound, "{name}, {tree:?}: {rest:e}");
                 compared += 1;
             } else {
                 largest_beyond = largest_beyond.max(rest.abs());
@@ -157,7 +157,7 @@ pub(crate) fn assert_conditions(name: &str, stages: impl Iterator<Item = Splitti
 #[test]
 fn nystrom_splittings_obey_all_conditions() {
     for scheme in NYSTROM {
-        assert_conditions(&scheme.to_string(), scheme.stages(), scheme.order() as usize);
+        assert_conditions(&scheme.to_string(), scheme.stages(), scheme.order() as usize, 1e-15);
     }
 }
 
