@@ -5,7 +5,7 @@
 //! ```
 //!
 //! It prints two tables and writes `long-run-outer-solar-system.svg` and `long-run-free-top.svg` to the folder. With `free-top` after the
-//! folder it makes the second part alone, which takes a minute.
+//! folder it makes the second part alone.
 #![expect(clippy::print_stdout, reason = "it prints its tables")]
 
 use std::error::Error;
