@@ -19,6 +19,19 @@ pub struct Entry {
     curves: Vec<Curve>,
 }
 
+/// Arenstorf's orbit in the frame at rest: forces of positions alone, and so a problem of its own.
+const AT_REST: &str = "arenstorf, frame at rest";
+
+/// The entries of a problem: one for its equations, and one for those in the frame at rest where methods have such curves.
+#[must_use]
+pub fn entries<E: Equations<D>, const D: usize>(problem: &Problem<E, D>, curves: &[Curve]) -> Vec<Entry> {
+    let (at_rest, others): (Vec<Curve>, Vec<Curve>) =
+        curves.iter().cloned().partition(|curve| curve.name.contains("frame at rest"));
+    let others = entry(problem, problem.name, others);
+    let at_rest = if at_rest.is_empty() { None } else { entry(problem, AT_REST, at_rest) };
+    others.into_iter().chain(at_rest).collect()
+}
+
 /// Turns (revolutions, swings) to the end of a problem, whether its steps must vary, and whether forces depend on velocities.
 fn character(name: &str, end: f64) -> Option<(f64, bool, bool)> {
     let tau = std::f64::consts::TAU;
@@ -29,6 +42,8 @@ fn character(name: &str, end: f64) -> Option<(f64, bool, bool)> {
         "kepler" | "kepler-099" => (10.0, true, false),
         // Three loops and the way around.
         "arenstorf" => (4.0, true, true),
+        // The same in the frame at rest, by `TurningFrame`.
+        AT_REST => (4.0, true, false),
         // A body crosses the cluster in a unit of time.
         "pleiades" => (end, true, false),
         // Jupiter's year.
@@ -41,12 +56,15 @@ fn character(name: &str, end: f64) -> Option<(f64, bool, bool)> {
     })
 }
 
-/// The entry of a problem, with the time of one evaluation of its equations.
-#[must_use]
-pub fn entry<E: Equations<D>, const D: usize>(problem: &Problem<E, D>, curves: &[Curve]) -> Option<Entry> {
+/// The entry of a name, with the time of one evaluation of the problem's equations.
+fn entry<E: Equations<D>, const D: usize>(
+    problem: &Problem<E, D>,
+    name: &'static str,
+    curves: Vec<Curve>,
+) -> Option<Entry> {
     const ROUNDS: usize = 20;
     const EVALUATIONS: u32 = 20_000;
-    let (turns, uneven, velocity_dependent) = character(problem.name, problem.end)?;
+    let (turns, uneven, velocity_dependent) = character(name, problem.end)?;
     let mut evaluation = f64::INFINITY;
     let (y, mut rate) = (black_box(problem.start), [0.0; D]);
     for _ in 0..ROUNDS {
@@ -57,15 +75,7 @@ pub fn entry<E: Equations<D>, const D: usize>(problem: &Problem<E, D>, curves: &
         }
         evaluation = evaluation.min(start.elapsed().as_secs_f64() / f64::from(EVALUATIONS));
     }
-    Some(Entry {
-        name: problem.name,
-        end: problem.end,
-        turns,
-        uneven,
-        velocity_dependent,
-        evaluation,
-        curves: curves.to_vec(),
-    })
+    Some(Entry { name, end: problem.end, turns, uneven, velocity_dependent, evaluation, curves })
 }
 
 /// The name of a method in the table, if it has a place there.

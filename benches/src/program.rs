@@ -272,6 +272,6 @@ fn run<E: Equations<D>, const D: usize>(
     std::fs::write(&path, figure(problem.title, &curves))?;
     eprintln!("  {}", path.display());
     results.records.extend(curves.iter().flat_map(|curve| curve.records(problem.name)));
-    results.entries.extend(advice::entry(problem, &curves));
+    results.entries.extend(advice::entries(problem, &curves));
     Ok(())
 }

@@ -4,7 +4,8 @@
 //! cargo run --release -p piola-benches --bin long-runs -- docs/measurements/figures
 //! ```
 //!
-//! It prints two tables and writes `long-run-outer-solar-system.svg` and `long-run-free-top.svg` to the folder.
+//! It prints two tables and writes `long-run-outer-solar-system.svg` and `long-run-free-top.svg` to the folder. With `free-top` after the
+//! folder it makes the second part alone.
 #![expect(clippy::print_stdout, reason = "it prints its tables")]
 
 use std::error::Error;
@@ -143,6 +144,8 @@ fn free_top(folder: &Path) -> Result<(), Box<dyn Error>> {
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1).unwrap_or_else(|| ".".into());
     let folder = Path::new(&folder);
-    outer_solar_system(folder)?;
+    if std::env::args().nth(2).is_none_or(|part| part != "free-top") {
+        outer_solar_system(folder)?;
+    }
     free_top(folder)
 }

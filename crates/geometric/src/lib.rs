@@ -5,6 +5,7 @@
 
 mod discrete_gradient;
 mod fixed_step;
+mod kept;
 mod lie_group;
 mod lobatto_pair;
 mod newton;

@@ -6,6 +6,8 @@ use piola_numerics::linear::lu;
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{NumericsError, Real};
 
+use crate::kept::{Kept, Visitor};
+
 /// Iterations after which a step is given up.
 const MOST_ITERATIONS: usize = 100;
 /// The part of the rounding error of an increment that may be left out of it.
@@ -46,6 +48,15 @@ pub(crate) struct Newton<T> {
     residuals: u64,
     /// Whether `factors` are those of a step before, of the same size.
     kept: bool,
+}
+
+impl<T: Real> Kept<T> for Newton<T> {
+    fn visit<V: Visitor<T>>(&mut self, visitor: &mut V) {
+        visitor.flag(&mut self.kept);
+        visitor.values(&mut self.factors);
+        visitor.exchanges(&mut self.exchanges);
+        visitor.numbers(&mut self.response);
+    }
 }
 
 /// How far the iteration has come.

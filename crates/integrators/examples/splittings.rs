@@ -12,7 +12,7 @@
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
-use piola_integrators::{Composition, IntegratorsError, Separable, SplittingScheme, State};
+use piola_integrators::{Composition, IntegratorsError, ProcessedSplitting, Separable, SplittingScheme, State};
 
 struct Kepler;
 impl Separable for Kepler {
@@ -58,6 +58,23 @@ fn worst<F: Separable<Error = Infallible>>(
     Ok(worst)
 }
 
+/// The same of the processed splitting; its processor is asked for every tenth step, and its forces do not count.
+fn worst_processed<F: Separable<Error = Infallible>>(
+    field: &mut F,
+    start: [f64; 4],
+    (end, rate): (f64, f64),
+    energy: fn(&[f64]) -> f64,
+) -> Result<f64, IntegratorsError> {
+    let mut state = State::new(0.0, start.to_vec())?;
+    let before = energy(&start);
+    let mut worst = 0.0_f64;
+    ProcessedSplitting::new(7.0 / rate)?.integrate(field, &mut state, end, 10, |step| {
+        worst = worst.max((energy(step.values) - before).abs());
+        ControlFlow::Continue(())
+    })?;
+    Ok(worst)
+}
+
 fn main() -> Result<(), IntegratorsError> {
     let kepler = |y: &[f64]| 0.5 * (y[2] * y[2] + y[3] * y[3]) - 1.0 / y[0].hypot(y[1]);
     let henon = |y: &[f64]| {
@@ -87,6 +104,21 @@ fn main() -> Result<(), IntegratorsError> {
             }
             println!("| {scheme} | {} |", row.join(" | "));
         }
+        let mut row = Vec::new();
+        for rate in rates {
+            let error = if is_kepler {
+                worst_processed(
+                    &mut Kepler,
+                    [0.7, 0.0, 0.0, (1.3_f64 / 0.7).sqrt()],
+                    (200.0 * turn, rate / turn),
+                    kepler,
+                )?
+            } else {
+                worst_processed(&mut HenonHeiles, [0.0, 0.1, 0.4877, 0.0], (1000.0, rate / turn), henon)?
+            };
+            row.push(format!("{error:.1e}"));
+        }
+        println!("| processed, order 6, 7 forces | {} |", row.join(" | "));
     }
     Ok(())
 }

@@ -25,6 +25,12 @@ impl AcceptedStep {
         Self { number, start, end, length, progress: RunSoFar::unknown() }
     }
 
+    /// The length of the next step to try, s.
+    #[must_use]
+    pub const fn next(self) -> f64 {
+        self.progress.next
+    }
+
     /// Whether a time lies within the step.
     #[must_use]
     pub fn contains(self, t: f64) -> bool {

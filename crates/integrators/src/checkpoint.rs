@@ -8,6 +8,9 @@ use crate::{IntegratorsError, Report, State};
 /// A run at the end of an accepted step. Continued by the `resume` of the same method with the same settings, to the same end,
 /// the run takes the same steps, to the last bit. To another end it goes on from the same state.
 ///
+/// The observer of an adaptive method takes it from the step, as below. Of [`GaussLegendre`](crate::GaussLegendre), and of the methods
+/// of `piola-geometric`, a run is first stopped at the step; `method.checkpoint(&state, report)` then makes it.
+///
 /// # Example
 /// ```
 /// use core::ops::ControlFlow;
@@ -59,9 +62,25 @@ impl<T: Real> Checkpoint<T> {
         self.report
     }
 
+    /// Of a run whose method remembers `memory` and `numbers` beside the state.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn of(state: State<T>, report: Report, memory: Vec<T>, numbers: Vec<f64>) -> Self {
+        Self { state, report, memory, numbers }
+    }
+    #[doc(hidden)]
+    #[must_use]
+    pub fn memory(&self) -> (&[T], &[f64]) {
+        (&self.memory, &self.numbers)
+    }
+
     /// Refuses a checkpoint of another method or of another size, and one whose numbers are not finite or, at the places of
     /// `positive`, not positive; the state becomes its state.
-    pub(crate) fn open<E>(
+    ///
+    /// # Errors
+    /// What is refused; the state is then left alone.
+    #[doc(hidden)]
+    pub fn open<E>(
         &self,
         state: &mut State<T>,
         memory: usize,

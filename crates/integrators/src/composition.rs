@@ -56,6 +56,12 @@ use crate::{Ending, IntegratorsError, Order, Report, Separable, SplittingScheme,
 pub struct Composition<T = f64> {
     scheme: SplittingScheme,
     step: f64,
+    splitter: Splitter<T>,
+}
+
+/// The steps of a splitting, and the memory of a run.
+#[derive(Clone, Debug)]
+pub(crate) struct Splitter<T = f64> {
     stages: [SplittingStage; MOST_STAGES],
     count: usize,
     rate: Vec<T>,
@@ -95,9 +101,7 @@ impl<T: Real> Composition<T> {
     /// ```
     pub fn with_scheme(scheme: SplittingScheme, step: f64) -> Result<Self, IntegratorsError> {
         check_step(step)?;
-        let (stages, count) = scheme.table();
-        let next = (Vec::new(), Vec::new());
-        Ok(Self { scheme, step, stages, count, rate: Vec::new(), force: Vec::new(), continued: false, next })
+        Ok(Self { scheme, step, splitter: Splitter::new(scheme.table()) })
     }
 
     /// The splitting.
@@ -111,8 +115,8 @@ impl<T: Real> Composition<T> {
     crate::unobserved_run!(F: Separable<T>, field: &mut F, IntegratorsError<F::Error>);
 
     /// Integrates to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is
-    /// earlier than the state's time. The observer sees every step and may stop the run. Continued to the same end, a run whose forces
-    /// do not depend on the time goes on with the same steps, to the last bit.
+    /// earlier than the state's time. The observer sees every step and may stop the run. Continued to the same end, a
+    /// stopped run goes on with the same steps, to the last bit.
     ///
     /// # Errors
     /// The state does not fit or is not finite, the step is too small to advance the time, or the field fails
@@ -126,11 +130,12 @@ impl<T: Real> Composition<T> {
     ) -> Result<Report, IntegratorsError<F::Error>> {
         check_run(2 * field.freedom(), state, end)?;
         let (steps, taken) = state.begin_equal_steps(end, self.step)?;
-        self.begin(field.freedom());
+        self.splitter.begin(field.freedom());
         let mut report = Report::begin();
         for number in 1..=steps.count - taken {
-            report.evaluations += self.advance(field, state, steps.length)?;
-            state.set_time(steps.time(taken + number));
+            let time = steps.time(taken + number);
+            report.evaluations += self.splitter.advance(field, state, steps.length, time)?;
+            state.set_time(time);
             report.steps = number;
             if observer(Step { number, time: state.time, values: &state.values }).is_break() {
                 report.ending = Ending::Stopped;
@@ -143,6 +148,30 @@ impl<T: Real> Composition<T> {
     /// Begins a run of n degrees of freedom.
     #[doc(hidden)]
     pub fn begin(&mut self, n: usize) {
+        self.splitter.begin(n);
+    }
+
+    /// Makes one step: see [`Splitter::advance`].
+    #[doc(hidden)]
+    pub fn advance<F: Separable<T>>(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        h: f64,
+        end: f64,
+    ) -> Result<u64, IntegratorsError<F::Error>> {
+        self.splitter.advance(field, state, h, end)
+    }
+}
+
+impl<T: Real> Splitter<T> {
+    pub(crate) const fn new((stages, count): ([SplittingStage; MOST_STAGES], usize)) -> Self {
+        let next = (Vec::new(), Vec::new());
+        Self { stages, count, rate: Vec::new(), force: Vec::new(), continued: false, next }
+    }
+
+    /// Begins a run of n degrees of freedom.
+    pub(crate) fn begin(&mut self, n: usize) {
         self.rate.resize(n, T::zero());
         self.force.resize(n, T::zero());
         self.continued = false;
@@ -150,16 +179,19 @@ impl<T: Real> Composition<T> {
         self.next.1.resize(2 * n, T::zero());
     }
 
-    /// Makes one step of length h of a run that was begun, on the state's values; its time is the caller's. Returns the number of
-    /// evaluations of the force.
-    #[doc(hidden)]
-    pub fn advance<F: Separable<T>>(
+    /// Makes one step of length h, which ends at the time `end`, of a run that was begun, on the state's values; the caller sets the
+    /// state's time to `end`. Returns the number of evaluations of the force.
+    ///
+    /// # Errors
+    /// The field fails or gives a rate that is not finite; the state is then left alone.
+    pub(crate) fn advance<F: Separable<T>>(
         &mut self,
         field: &mut F,
         state: &mut State<T>,
         h: f64,
+        end: f64,
     ) -> Result<u64, IntegratorsError<F::Error>> {
-        let evaluations = self.make_step(field, state, h).inspect_err(|_| self.continued = false)?;
+        let evaluations = self.make_step(field, state, h, end).inspect_err(|_| self.continued = false)?;
         core::mem::swap(&mut state.values, &mut self.next.0);
         core::mem::swap(&mut state.carry, &mut self.next.1);
         Ok(evaluations)
@@ -171,9 +203,12 @@ impl<T: Real> Composition<T> {
         field: &mut F,
         state: &State<T>,
         h: f64,
+        end: f64,
     ) -> Result<u64, IntegratorsError<F::Error>> {
         let n = self.rate.len();
         let (start, kicks) = (state.time, self.count - 1);
+        // The end of a step and the start of the next are one moment: a force that is kept is that of a run begun anew.
+        let moment = |part: f64| if part.total_cmp(&1.0).is_eq() { end } else { start + part * h };
         let (rate, force) = (&mut self.rate[..], &mut self.force[..]);
         let (q, p) = self.next.0.split_at_mut(n);
         let (q_carry, p_carry) = self.next.1.split_at_mut(n);
@@ -188,7 +223,7 @@ impl<T: Real> Composition<T> {
                 q.copy_from_slice(q_start);
                 q_carry.copy_from_slice(q_carry_start);
             } else {
-                let t = start + drift_time * h;
+                let t = moment(drift_time);
                 let momentum = if number == 0 { p_start } else { &*p };
                 field.velocity(t, momentum, rate).map_err(|source| IntegratorsError::Field { t, source })?;
                 if number == 0 {
@@ -200,7 +235,7 @@ impl<T: Real> Composition<T> {
             if number == 0 && kick_first && self.continued {
                 evaluations -= 1;
             } else {
-                let t = start + kick_time * h;
+                let t = moment(kick_time);
                 field.force(t, q, force).map_err(|source| IntegratorsError::Field { t, source })?;
                 check_finite("rate", Some(start), force)?;
             }
@@ -213,7 +248,7 @@ impl<T: Real> Composition<T> {
         self.continued = kick_first;
         if !kick_first {
             let SplittingStage { drift, drift_time, .. } = self.stages[kicks];
-            let t = start + drift_time * h;
+            let t = moment(drift_time);
             field.velocity(t, p, rate).map_err(|source| IntegratorsError::Field { t, source })?;
             update(q, q_carry, rate, drift * h);
         }

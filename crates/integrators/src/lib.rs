@@ -20,6 +20,7 @@ mod gauss_radau_15;
 mod legendre;
 mod nystrom;
 mod order;
+mod processed;
 mod second_order;
 mod sensitivity;
 mod splitting;
@@ -42,6 +43,7 @@ pub use gauss_legendre_16::{CollocationStep, GaussLegendre16};
 pub use gauss_radau_15::{GaussRadau15, GaussRadauStep};
 pub use nystrom::{Nystrom, Nystrom86, Nystrom1210, NystromPair, NystromPair86, NystromPair1210, NystromStep};
 pub use order::Order;
+pub use processed::ProcessedSplitting;
 pub use second_order::SecondOrder;
 pub use sensitivity::{
     AdjointSensitivity, ForwardSensitivity, JacobianProduct, Objective, ObjectiveGradient, ParametricField,

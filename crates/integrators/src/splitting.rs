@@ -145,6 +145,21 @@ impl SplittingScheme {
     }
 }
 
+/// The stages of a symmetric splitting of half a palindrome, its middle included.
+pub(crate) fn palindrome(half: &[f64]) -> ([SplittingStage; MOST_STAGES], usize) {
+    let mut table = Table::new();
+    table.split(half);
+    (table.stages, table.count)
+}
+
+/// The stages of drifts and kicks in turn, whose sums vanish: they lead from a moment to the same moment.
+pub(crate) fn processor(coefficients: &[f64], inverse: bool) -> ([SplittingStage; MOST_STAGES], usize) {
+    let (mut table, all) = (Table::new(), coefficients.len());
+    let of = |index: usize| if inverse { -coefficients[all - 1 - index] } else { coefficients[index] };
+    table.alternate(all, of, 0.0);
+    (table.stages, table.count)
+}
+
 struct Table {
     stages: [SplittingStage; MOST_STAGES],
     count: usize,
@@ -172,18 +187,23 @@ impl Table {
         self.push(0.5 * previous, 0.0, 1.0, 1.0);
     }
 
-    /// Half of a palindrome of drifts and kicks, in turn, its middle included.
-    fn split(&mut self, half: &[f64]) {
-        let all = half.len() * 2 - 1;
+    /// So many drifts and kicks in turn, whose sums are `sum`.
+    fn alternate(&mut self, all: usize, of: impl Fn(usize) -> f64, sum: f64) {
         let (mut drifted, mut kicked) = (0.0, 0.0);
         for index in (0..all).step_by(2) {
-            let of = |index: usize| if index < half.len() { half[index] } else { half[all - 1 - index] };
             let (drift, kick) = (of(index), if index + 1 < all { of(index + 1) } else { 0.0 });
             let is_last = index + 1 == all;
-            self.push(drift, kick, if is_last { 1.0 } else { kicked }, if is_last { 1.0 } else { drifted + drift });
+            self.push(drift, kick, if is_last { sum } else { kicked }, if is_last { sum } else { drifted + drift });
             drifted += drift;
             kicked += kick;
         }
+    }
+
+    /// Half of a palindrome of drifts and kicks, in turn, its middle included.
+    fn split(&mut self, half: &[f64]) {
+        let all = half.len() * 2 - 1;
+        let of = |index: usize| if index < half.len() { half[index] } else { half[all - 1 - index] };
+        self.alternate(all, of, 1.0);
         // After the last drift but one all kicks are done, and after a kick at the end all drifts.
         if half[0].abs() <= 0.0 {
             self.stages[self.count - 2].kick_time = 1.0;

@@ -18,9 +18,8 @@ use crate::field::largest_lane;
 ///
 /// A run of equal steps that an observer stopped goes on with the same steps, to the last bit, when the same method continues it to
 /// the same end: the state knows its steps, also after it was written and read (feature `serde`). This holds for methods that keep
-/// nothing but the state from step to step: in `piola-geometric` `MuntheKaas`, `CommutatorFree` and the sweeps of `LobattoPair`; and
-/// for compositions and splittings where no force depends on the time. Methods that begin a step from what the one before told go on with the same steps to the tolerance of
-/// their iteration. Adaptive methods have a [`Checkpoint`](crate::Checkpoint).
+/// nothing but the state from step to step: [`Composition`](crate::Composition), and in `piola-geometric` `MuntheKaas` and
+/// `CommutatorFree`. All others have a [`Checkpoint`](crate::Checkpoint).
 ///
 /// # Example
 /// ```
@@ -126,6 +125,15 @@ impl<T: Real> State<T> {
     #[must_use]
     pub fn remaining(&self, end: f64) -> f64 {
         (end - self.time) - self.time_carry
+    }
+
+    /// The time after a step, as [`advance_time`](Self::advance_time) leaves it.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn time_after(&self, step: f64) -> f64 {
+        let (mut time, mut carry) = (self.time, self.time_carry);
+        compensated_add(&mut time, &mut carry, step);
+        time
     }
 
     #[doc(hidden)]
@@ -284,6 +292,13 @@ impl Report {
         /// Fewer steps may be bounded by chance.
         const FEWEST: u64 = 15;
         FEWEST <= self.stiff_steps && self.steps <= 10 * self.stiff_steps
+    }
+    /// What a run that goes on begins with.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn continued(mut self) -> Self {
+        self.ending = Ending::Reached;
+        self
     }
     /// This run followed by another.
     #[must_use]

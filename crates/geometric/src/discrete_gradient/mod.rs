@@ -33,12 +33,13 @@ mod system;
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::{check_step, check_sums, compensated_add};
-use piola_integrators::{IntegratorsError, Order, Report, State, Step, order_and_step, unobserved_run};
+use piola_integrators::{Checkpoint, IntegratorsError, Order, Report, State, Step, order_and_step, unobserved_run};
 use piola_numerics::Real;
 
 use self::equations::{MidpointStep, Workspace};
 pub use self::system::EnergySystem;
 use crate::fixed_step::take_equal_steps;
+use crate::kept::{Kept, Visitor, checkpoint_of};
 use crate::newton::Newton;
 
 /// The discrete-gradient method of Gonzalez, composed to the given order, with a fixed step.
@@ -75,12 +76,29 @@ use crate::newton::Newton;
 pub struct DiscreteGradient<T = f64> {
     order: Order,
     step: f64,
-    substeps: Vec<Substep<T>>,
+    kept: Memory<T>,
     work: Workspace<T>,
-    /// The state at the start of the run, and its carry.
-    anchor: (Vec<T>, Vec<T>),
     /// The end of the step while it is made.
     next: (Vec<T>, Vec<T>),
+}
+
+/// What is kept from step to step.
+#[derive(Clone, Debug)]
+struct Memory<T> {
+    substeps: Vec<Substep<T>>,
+    /// The state at the start of the run, and its carry.
+    anchor: (Vec<T>, Vec<T>),
+}
+
+impl<T: Real> Kept<T> for Memory<T> {
+    fn visit<V: Visitor<T>>(&mut self, visitor: &mut V) {
+        visitor.values(&mut self.anchor.0);
+        visitor.values(&mut self.anchor.1);
+        for substep in &mut self.substeps {
+            visitor.values(&mut substep.increment);
+            substep.newton.visit(visitor);
+        }
+    }
 }
 
 /// A substep: its part of the step, its increment in the step before, its matrix.
@@ -102,9 +120,8 @@ impl<T: Real> DiscreteGradient<T> {
         Ok(Self {
             order,
             step,
-            substeps: order.substeps().map(substep).collect(),
+            kept: Memory { substeps: order.substeps().map(substep).collect(), anchor: (Vec::new(), Vec::new()) },
             work: Workspace::new(),
-            anchor: (Vec::new(), Vec::new()),
             next: (Vec::new(), Vec::new()),
         })
     }
@@ -127,24 +144,55 @@ impl<T: Real> DiscreteGradient<T> {
         end: f64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError> {
+        self.run(system, None, state, end, observer)
+    }
+
+    checkpoint_of!(kept);
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    pub fn resume<S: EnergySystem>(
+        &mut self,
+        system: &S,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError> {
+        self.run(system, Some(checkpoint), state, end, observer)
+    }
+
+    fn run<S: EnergySystem>(
+        &mut self,
+        system: &S,
+        resumed: Option<&Checkpoint<T>>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError> {
         let n = system.dimension();
         self.begin(n, state);
-        take_equal_steps(n, self.step, state, end, observer, |state, h| self.advance(system, state, h))
+        let before = resumed.map_or(Ok(Report::begin()), |checkpoint| self.kept.restore(checkpoint, state))?;
+        take_equal_steps(n, (before, self.step), state, end, observer, |state, h| self.advance(system, state, h))
     }
 
     fn begin(&mut self, n: usize, state: &State<T>) {
         self.work.resize(n);
-        for substep in &mut self.substeps {
+        for substep in &mut self.kept.substeps {
             substep.increment.clear();
             substep.increment.resize(n, T::zero());
             substep.newton.begin(n, true);
         }
-        for (copy, original) in [(&mut self.anchor.0, &state.values), (&mut self.anchor.1, &state.carry)] {
+        for (copy, original) in [(&mut self.kept.anchor.0, &state.values), (&mut self.kept.anchor.1, &state.carry)] {
             copy.clear();
             copy.extend_from_slice(original);
         }
         // A state that does not fit is refused before the first step.
-        self.anchor.1.resize(n, T::zero());
+        self.kept.anchor.0.resize(n, T::zero());
+        self.kept.anchor.1.resize(n, T::zero());
         self.next.0.resize(n, T::zero());
         self.next.1.resize(n, T::zero());
     }
@@ -154,14 +202,15 @@ impl<T: Real> DiscreteGradient<T> {
         values.copy_from_slice(&state.values);
         carry.copy_from_slice(&state.carry);
         let (mut evaluations, mut reached) = (0, 0.0);
-        for substep in &mut self.substeps {
+        let Memory { substeps, anchor } = &mut self.kept;
+        for substep in substeps {
             let (t, h) = (state.time + reached * h, substep.part * h);
             reached += substep.part;
             let excess = if S::DAMPED {
                 T::zero()
             } else {
                 // It is rounding, and has no derivatives.
-                self.work.energy_change(system, (&self.anchor.0, &self.anchor.1), (values, carry)).frozen()
+                self.work.energy_change(system, (&anchor.0, &anchor.1), (values, carry)).frozen()
             };
             let mut step = MidpointStep { system, work: &mut self.work, values, carry, t, h, excess };
             evaluations += substep.newton.solve(&mut step, &mut substep.increment, (t, h))?;

@@ -54,6 +54,8 @@ pub struct AdaptiveMuntheKaas<T = f64> {
     third: Vec<T>,
     magnitudes: Vec<f64>,
     magnitudes_at_end: Vec<f64>,
+    /// The length of the next step to try.
+    next: f64,
     trial: Trial<T>,
 }
 
@@ -71,6 +73,7 @@ impl<T: Real> AdaptiveMuntheKaas<T> {
             third: Vec::new(),
             magnitudes: Vec::new(),
             magnitudes_at_end: Vec::new(),
+            next: 0.0,
             trial: Trial::new(),
         }
     }
@@ -101,9 +104,65 @@ impl<T: Real> AdaptiveMuntheKaas<T> {
         field: &mut F,
         state: &mut State<T>,
         end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.run(field, None, state, end, observer)
+    }
+
+    /// The run where it stands, to be continued by [`resume`](Self::resume): the state and the report of a run of this method that
+    /// has ended or that the observer has stopped.
+    ///
+    /// # Example
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use piola_geometric::{AdaptiveMuntheKaas, Rotations, group_field};
+    /// use piola_integrators::{State, Tolerance};
+    /// let mut turning = group_field(Rotations, |t, _q: &[f64], omega: &mut [f64]| omega.copy_from_slice(&[0.0, t, 2.0 * t]));
+    /// let start = State::new(0.0, vec![1.0, 0.0, 0.0, 0.0])?;
+    /// let mut method = AdaptiveMuntheKaas::new(Tolerance::relative(1e-9)?);
+    /// let (mut whole, mut state) = (start.clone(), start);
+    /// let report = method.integrate_to(&mut turning, &mut whole, 3.0)?;
+    /// // Stopped after two steps; with the feature `serde`, the checkpoint can be written to a file.
+    /// let stopped = method.integrate(&mut turning, &mut state, 3.0, |step| {
+    ///     if step.number == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    /// })?;
+    /// let checkpoint = method.checkpoint(&state, stopped);
+    /// let continued = method.resume(&mut turning, &checkpoint, &mut state, 3.0, |_step| ControlFlow::Continue(()))?;
+    /// assert_eq!((state, continued), (whole, report));
+    /// # Ok::<(), piola_integrators::IntegratorsError>(())
+    /// ```
+    #[must_use]
+    pub fn checkpoint(&self, state: &State<T>, report: Report) -> Checkpoint<T> {
+        let numbers = core::iter::once(&self.next).chain(&self.magnitudes_at_end).copied().collect();
+        Checkpoint::of(state.clone(), report, self.velocity_at_end.clone(), numbers)
+    }
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    pub fn resume<F: GroupField<T>>(
+        &mut self,
+        field: &mut F,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.run(field, Some(checkpoint), state, end, observer)
+    }
+
+    fn run<F: GroupField<T>>(
+        &mut self,
+        field: &mut F,
+        resumed: Option<&Checkpoint<T>>,
+        state: &mut State<T>,
+        end: f64,
         mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        follow(self, field, state, end, None, &mut |_method, _field, state, step, _report| {
+        follow(self, field, state, end, resumed, &mut |method, _field, state, step, _report| {
+            method.next = step.next();
             let seen = observer(Step { number: step.number, time: state.time, values: &state.values });
             Ok(if seen.is_break() { ControlFlow::Break(Ending::Stopped) } else { ControlFlow::Continue(()) })
         })
@@ -189,14 +248,24 @@ impl<T: Real, F: GroupField<T>> EmbeddedPair<T, F> for AdaptiveMuntheKaas<T> {
         field: &mut F,
         state: &mut State<T>,
         end: f64,
-        _resumed: Option<&Checkpoint<T>>,
+        resumed: Option<&Checkpoint<T>>,
         report: &mut Report,
     ) -> Result<f64, IntegratorsError<F::Error>> {
+        let n = field.group().dimension();
+        if let Some(checkpoint) = resumed {
+            checkpoint.open(state, n, n + 1, &[0])?;
+        }
         check_start(field.group(), 0, state, end)?;
         self.prepare(field.group(), state);
         let span = end - state.time;
         if span.abs() <= 0.0 {
             return Ok(0.0);
+        }
+        if let Some(checkpoint) = resumed {
+            let (velocity, numbers) = checkpoint.memory();
+            self.stages[0].copy_from_slice(velocity);
+            self.magnitudes.copy_from_slice(&numbers[1..]);
+            return Ok(numbers[0]);
         }
         evaluate(field, state.time, state.time, &state.values, &mut self.stages[0])?;
         report.evaluations += 1;

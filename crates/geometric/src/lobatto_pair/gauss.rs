@@ -3,12 +3,13 @@
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::{DIRECTIONS, check_step};
-use piola_integrators::{Field, IntegratorsError, Order, Report, State, Step, order_and_step, unobserved};
+use piola_integrators::{Checkpoint, Field, IntegratorsError, Order, Report, State, Step, order_and_step, unobserved};
 use piola_numerics::{Gradient, Real};
 
 use super::equations::Exact;
 use super::stepper::PairStepper;
 use super::tableau::PairTableau;
+use crate::kept::{Kept, checkpoint_of};
 
 /// Gauss–Legendre collocation of orders 2, 4, 6 and 8 with a fixed step, whose stages simplified Newton iteration finds with exact
 /// Jacobians.
@@ -105,6 +106,27 @@ impl<T: Real> GaussCollocation<T> {
     where
         F: Field<T, Error = E> + Field<Gradient<T, DIRECTIONS>, Error = E>,
     {
-        self.stepper.run::<F, Exact>(self.step, field, state, end, observer)
+        self.stepper.run::<F, Exact>((None, self.step), field, state, end, observer)
+    }
+
+    checkpoint_of!(stepper);
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    pub fn resume<F, E>(
+        &mut self,
+        field: &mut F,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<E>>
+    where
+        F: Field<T, Error = E> + Field<Gradient<T, DIRECTIONS>, Error = E>,
+    {
+        self.stepper.run::<F, Exact>((Some(checkpoint), self.step), field, state, end, observer)
     }
 }

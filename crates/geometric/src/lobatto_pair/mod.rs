@@ -24,13 +24,16 @@ mod tableau;
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::{DIRECTIONS, check_step};
-use piola_integrators::{Field, IntegratorsError, Order, Report, State, Step, order_and_step, unobserved_run};
+use piola_integrators::{
+    Checkpoint, Field, IntegratorsError, Order, Report, State, Step, order_and_step, unobserved_run,
+};
 use piola_numerics::{Gradient, Real};
 
 use self::equations::{Exact, FixedPoint, Jacobians};
 pub use self::gauss::GaussCollocation;
 use self::stepper::PairStepper;
 pub use self::tableau::PairTableau;
+use crate::kept::{Kept, checkpoint_of};
 
 /// Lobatto's pair IIIA–IIIB with a fixed step, for fields y = (q, p) in two halves.
 ///
@@ -84,7 +87,7 @@ impl<T: Real> LobattoPair<T> {
         end: f64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.run::<F, FixedPoint>(field, state, end, observer)
+        self.run::<F, FixedPoint>(field, None, state, end, observer)
     }
 
     /// Integrates as [`integrate`](Self::integrate), by simplified Newton iteration with exact Jacobians, which converges where
@@ -103,12 +106,50 @@ impl<T: Real> LobattoPair<T> {
     where
         F: Field<T, Error = E> + Field<Gradient<T, DIRECTIONS>, Error = E>,
     {
-        self.run::<F, Exact>(field, state, end, observer)
+        self.run::<F, Exact>(field, None, state, end, observer)
+    }
+
+    checkpoint_of!(stepper);
+
+    /// Continues a run of [`integrate`](Self::integrate) from a [`Checkpoint`] that this method made with the same settings: the state
+    /// becomes that of the checkpoint. To the same end the run takes the same steps, to the last bit.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method, iteration or system.
+    pub fn resume<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.run::<F, FixedPoint>(field, Some(checkpoint), state, end, observer)
+    }
+
+    /// Continues a run of [`integrate_by_newton`](Self::integrate_by_newton), as [`resume`](Self::resume).
+    ///
+    /// # Errors
+    /// As [`integrate_by_newton`](Self::integrate_by_newton); [`IntegratorsError::WrongLength`] for a checkpoint of another method,
+    /// iteration or system.
+    pub fn resume_by_newton<F, E>(
+        &mut self,
+        field: &mut F,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<E>>
+    where
+        F: Field<T, Error = E> + Field<Gradient<T, DIRECTIONS>, Error = E>,
+    {
+        self.run::<F, Exact>(field, Some(checkpoint), state, end, observer)
     }
 
     fn run<F: Field<T>, K: Jacobians<F, T>>(
         &mut self,
         field: &mut F,
+        resumed: Option<&Checkpoint<T>>,
         state: &mut State<T>,
         end: f64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
@@ -117,6 +158,6 @@ impl<T: Real> LobattoPair<T> {
         if !n.is_multiple_of(2) {
             return Err(IntegratorsError::OddDimension { dimension: n });
         }
-        self.stepper.run::<F, K>(self.step, field, state, end, observer)
+        self.stepper.run::<F, K>((resumed, self.step), field, state, end, observer)
     }
 }

@@ -4,12 +4,13 @@ use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::{check_sums, compensated_add};
-use piola_integrators::{Field, IntegratorsError, Report, State, Step};
+use piola_integrators::{Checkpoint, Field, IntegratorsError, Report, State, Step};
 use piola_numerics::{Gradient, Real};
 
 use super::equations::{Jacobians, PairStep, Workspace};
 use super::tableau::PairTableau;
 use crate::fixed_step::take_equal_steps;
+use crate::kept::{Kept, Visitor};
 use crate::newton::Newton;
 
 /// A tableau, and the memory of its steps.
@@ -19,6 +20,13 @@ pub(super) struct PairStepper<T> {
     newton: Newton<T>,
     increments: Vec<T>,
     work: Workspace<T>,
+}
+
+impl<T: Real> Kept<T> for PairStepper<T> {
+    fn visit<V: Visitor<T>>(&mut self, visitor: &mut V) {
+        visitor.values(&mut self.increments);
+        self.newton.visit(visitor);
+    }
 }
 
 impl<T: Real> PairStepper<T> {
@@ -33,10 +41,10 @@ impl<T: Real> PairStepper<T> {
         Self { tableau: *tableau, newton: Newton::new(), increments: Vec::new(), work }
     }
 
-    /// Takes equal steps no longer than `step` to `end`.
+    /// Takes equal steps no longer than `step` to `end`; a run that is resumed goes on from its checkpoint.
     pub(super) fn run<F: Field<T>, K: Jacobians<F, T>>(
         &mut self,
-        step: f64,
+        (resumed, step): (Option<&Checkpoint<T>>, f64),
         field: &mut F,
         state: &mut State<T>,
         end: f64,
@@ -48,8 +56,9 @@ impl<T: Real> PairStepper<T> {
         self.increments.clear();
         self.increments.resize(size, T::zero());
         self.work.resize(n, !K::NONE);
+        let before = resumed.map_or(Ok(Report::begin()), |checkpoint| self.restore(checkpoint, state))?;
         let Self { tableau, newton, increments, work } = self;
-        take_equal_steps(n, step, state, end, observer, |state, h| {
+        take_equal_steps(n, (before, step), state, end, observer, |state, h| {
             // The weights sum to the step exactly.
             let mut weights = tableau.weights.map(|b| h * b);
             let middle = tableau.stages / 2;

@@ -21,7 +21,7 @@ use core::ops::ControlFlow;
 
 use piola_integrators::internal::{check_finite, check_run, check_step};
 use piola_integrators::{
-    Composition, Ending, IntegratorsError, Report, Separable, SplittingScheme, State, Step, unobserved,
+    Checkpoint, Composition, Ending, IntegratorsError, Report, Separable, SplittingScheme, State, Step, unobserved,
 };
 use piola_numerics::Dual;
 
@@ -134,13 +134,51 @@ impl ReversibleComposition {
         end: f64,
         observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        check_run(2 * field.freedom(), state, end)?;
         self.density = None;
+        self.run_to(field, length, state, (Report::begin(), end), observer)
+    }
+
+    /// The run where it stands, to be continued by [`resume`](Self::resume): the state and the report of a run of this method that has
+    /// ended or that the observer has stopped. Before the first run there is none to continue.
+    #[must_use]
+    pub fn checkpoint(&self, state: &State, report: Report) -> Checkpoint {
+        Checkpoint::of(state.clone(), report, Vec::new(), self.density.into_iter().collect())
+    }
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit; the report may count one evaluation more.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] and [`IntegratorsError::NotPositive`] for a checkpoint of
+    /// another method.
+    pub fn resume<F: Separable>(
+        &mut self,
+        field: &mut F,
+        length: &impl StepLength,
+        checkpoint: &Checkpoint,
+        state: &mut State,
+        end: f64,
+        observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        checkpoint.open(state, 0, 1, &[0])?;
+        self.density = Some(checkpoint.memory().1[0]);
+        self.run_to(field, length, state, (checkpoint.report().continued(), end), observer)
+    }
+
+    fn run_to<F: Separable>(
+        &mut self,
+        field: &mut F,
+        length: &impl StepLength,
+        state: &mut State,
+        (before, end): (Report, f64),
+        observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        check_run(2 * field.freedom(), state, end)?;
         if (end - state.time).abs() <= 0.0 {
-            return Ok(Report::begin());
+            return Ok(before);
         }
         let scale = self.scale.copysign(end - state.time);
-        self.run(field, length, state, (scale, u64::MAX, Some(end)), observer)
+        self.run(field, length, state, (before, scale, u64::MAX, Some(end)), observer)
     }
 
     /// Makes `steps` steps, backwards in time if `backwards`. If `continued`, they begin with the density at the end of the run before,
@@ -162,7 +200,7 @@ impl ReversibleComposition {
             self.density = None;
         }
         let scale = if backwards { -self.scale } else { self.scale };
-        self.run(field, length, state, (scale, steps, None), observer)
+        self.run(field, length, state, (Report::begin(), scale, steps, None), observer)
     }
 
     fn run<F: Separable>(
@@ -170,14 +208,14 @@ impl ReversibleComposition {
         field: &mut F,
         length: &impl StepLength,
         state: &mut State,
-        (scale, steps, end): (f64, u64, Option<f64>),
+        (before, scale, steps, end): (Report, f64, u64, Option<f64>),
         mut observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
         let n = field.freedom();
         self.velocity.resize(n, 0.0);
         self.seeds.resize(n, Dual::constant(0.0));
         self.composition.begin(n);
-        let mut report = Report::begin();
+        let mut report = before;
         let (sigma, mut growth) = self.growth(field, length, state)?;
         let mut density = self.density.unwrap_or(1.0 / sigma);
         while report.steps < steps {
@@ -194,8 +232,9 @@ impl ReversibleComposition {
                 return Err(IntegratorsError::StepTooSmall { t: state.time, step: h });
             }
             // Of a last step that is cut short, ρ changes by the part that is left.
-            let (before, growth_before, part) = (density, growth, h * middle);
-            report.evaluations += self.composition.advance(field, state, h)?;
+            let (density_before, growth_before, part) = (density, growth, h * middle);
+            let moment = last.map_or_else(|| state.time_after(h), |(_, end)| end);
+            report.evaluations += self.composition.advance(field, state, h, moment)?;
             match last {
                 Some((_, end)) => state.set_time(end),
                 None => state.advance_time(h),
@@ -203,7 +242,7 @@ impl ReversibleComposition {
             report.steps += 1;
             growth = self.growth(field, length, state)?.1;
             density = match last {
-                Some(_) => before + 0.5 * part * (growth_before + growth),
+                Some(_) => density_before + 0.5 * part * (growth_before + growth),
                 None => middle + 0.5 * scale * growth,
             };
             self.density = Some(density);

@@ -3,11 +3,12 @@
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::{DIRECTIONS as D, check_step};
-use piola_integrators::{IntegratorsError, Report, State, Step, unobserved};
+use piola_integrators::{Checkpoint, IntegratorsError, Report, State, Step, unobserved};
 use piola_numerics::{Gradient, Real};
 
 use super::step::{DiscreteAction, Start, Stepper};
 use crate::fixed_step::take_equal_steps;
+use crate::kept::{Kept, checkpoint_of};
 
 /// One step between two positions.
 #[derive(Clone, Copy, Debug)]
@@ -144,11 +145,40 @@ impl<T: Real> DiscreteEulerLagrange<T> {
         end: f64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError> {
+        self.run(lagrangian, None, state, end, observer)
+    }
+
+    checkpoint_of!(stepper);
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    pub fn resume<L: DiscreteLagrangian>(
+        &mut self,
+        lagrangian: &L,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError> {
+        self.run(lagrangian, Some(checkpoint), state, end, observer)
+    }
+
+    fn run<L: DiscreteLagrangian>(
+        &mut self,
+        lagrangian: &L,
+        resumed: Option<&Checkpoint<T>>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError> {
         let n = lagrangian.freedom();
-        self.stepper.begin(n, 1);
         self.memory.resize(n);
         let (stepper, memory) = (&mut self.stepper, &mut self.memory);
-        take_equal_steps(2 * n, self.step, state, end, observer, |state, h| {
+        let before = stepper.begin(n, 1, resumed, state)?;
+        take_equal_steps(2 * n, (before, self.step), state, end, observer, |state, h| {
             stepper.advance(&mut GivenAction { lagrangian, memory }, state, h)
         })
     }

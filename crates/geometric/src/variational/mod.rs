@@ -33,7 +33,7 @@ mod system;
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::{check_finite, check_step};
-use piola_integrators::{IntegratorsError, Order, Report, State, Step, order_and_step, unobserved_run};
+use piola_integrators::{Checkpoint, IntegratorsError, Order, Report, State, Step, order_and_step, unobserved_run};
 use piola_numerics::Real;
 
 pub use self::discrete::{Chord, DiscreteEulerLagrange, DiscreteLagrangian};
@@ -42,6 +42,7 @@ pub use self::rule::{ActionRule, ActionTableau};
 use self::step::Stepper;
 pub use self::system::VariationalSystem;
 use crate::fixed_step::take_equal_steps;
+use crate::kept::{Kept, checkpoint_of};
 
 /// The variational integrator of a Lagrangian, with a fixed step: Galerkin's method with Gauss's or Lobatto's quadrature.
 ///
@@ -144,11 +145,40 @@ impl<T: Real> VariationalIntegrator<T> {
         end: f64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError> {
+        self.run(system, None, state, end, observer)
+    }
+
+    checkpoint_of!(stepper);
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    pub fn resume<S: VariationalSystem>(
+        &mut self,
+        system: &S,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError> {
+        self.run(system, Some(checkpoint), state, end, observer)
+    }
+
+    fn run<S: VariationalSystem>(
+        &mut self,
+        system: &S,
+        resumed: Option<&Checkpoint<T>>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError> {
         let n = system.freedom();
         self.make_memory(n);
         let (stepper, memory, tableau) = (&mut self.stepper, &mut self.memory, &self.tableau);
-        stepper.begin(n, tableau.degree);
-        take_equal_steps(2 * n, self.step, state, end, observer, |state, h| {
+        let before = stepper.begin(n, tableau.degree, resumed, state)?;
+        take_equal_steps(2 * n, (before, self.step), state, end, observer, |state, h| {
             stepper.advance(&mut PolynomialAction { system, tableau, memory }, state, h)
         })
     }

@@ -1,9 +1,10 @@
 //! One step in position–momentum form, for any discrete action.
 
 use piola_integrators::internal::{check_finite, check_sums, compensated_add, largest_lane};
-use piola_integrators::{IntegratorsError, State};
+use piola_integrators::{Checkpoint, IntegratorsError, Report, State};
 use piola_numerics::Real;
 
+use crate::kept::{Kept, Visitor};
 use crate::newton::{Equations, Newton};
 
 /// A discrete action A(q₀, U) of the start q₀ and of the increments U₁ … Uₛ of the nodes after it, Uₛ = q₁ − q₀, with forces.
@@ -78,17 +79,32 @@ impl<A: DiscreteAction<T>, T: Real> Equations<T> for PositionMomentum<'_, A, T> 
     }
 }
 
+impl<T: Real> Kept<T> for Stepper<T> {
+    fn visit<V: Visitor<T>>(&mut self, visitor: &mut V) {
+        visitor.values(&mut self.increments);
+        self.newton.visit(visitor);
+    }
+}
+
 impl<T: Real> Stepper<T> {
     pub(super) const fn new() -> Self {
         Self { newton: Newton::new(), increments: Vec::new(), impulse: Vec::new(), residual: Vec::new() }
     }
 
-    pub(super) fn begin(&mut self, n: usize, nodes: usize) {
+    /// Makes room for n coordinates; a run that is resumed goes on from its checkpoint. Returns the report of the run so far.
+    pub(super) fn begin(
+        &mut self,
+        n: usize,
+        nodes: usize,
+        resumed: Option<&Checkpoint<T>>,
+        state: &mut State<T>,
+    ) -> Result<Report, IntegratorsError> {
         self.newton.begin(n * nodes, true);
         self.increments.clear();
         self.increments.resize(n * nodes, T::zero());
         self.residual.resize(n * nodes, T::zero());
         self.impulse.resize(n, T::zero());
+        resumed.map_or(Ok(Report::begin()), |checkpoint| self.restore(checkpoint, state))
     }
 
     /// Makes one step on the values of the state; returns the number of evaluations.

@@ -1,36 +1,52 @@
-//! A stopped run of equal steps that goes on is the whole run, to the last bit.
+//! A stopped run that goes on is the whole run, to the last bit, also after it was written and read.
 
 use core::ops::ControlFlow;
 
-use piola_geometric::{CommutatorFree, LobattoPair, MuntheKaas};
-use piola_integrators::{Order, State};
+use piola_geometric::{
+    AdaptiveMuntheKaas, Chord, CommutatorFree, DiscreteEulerLagrange, DiscreteGradient, DiscreteLagrangian,
+    GaussCollocation, GeneralisedAlpha, LobattoPair, MuntheKaas, ReversibleComposition, VariationalIntegrator,
+    VariationalSystem,
+};
+use piola_integrators::{
+    Checkpoint, IntegratorsError, Order, Report, Separable, SplittingScheme, State, Step, Tolerance, separable,
+};
+use piola_numerics::Real;
 
+use crate::discrete_gradient::{DampedPendulum, HenonHeiles};
 use crate::lie_group::Top;
 use crate::problems::{kepler, kepler_at};
+use crate::reversible::Distance;
+use crate::variational::{self, Kepler};
 
-/// Writes and reads a state, where the feature allows it.
+/// Writes and reads a state or a checkpoint, where the feature allows it.
 #[cfg(feature = "serde")]
-fn written_and_read(state: &State) -> State {
-    serde_json::from_str(&serde_json::to_string(state).unwrap()).unwrap()
+fn written_and_read<T: serde::Serialize + serde::de::DeserializeOwned>(written: &T) -> T {
+    serde_json::from_str(&serde_json::to_string(written).unwrap()).unwrap()
 }
 #[cfg(not(feature = "serde"))]
-fn written_and_read(state: &State) -> State {
-    state.clone()
+fn written_and_read<T: Clone>(written: &T) -> T {
+    written.clone()
 }
 
 const END: f64 = 3.0;
+const TOP: [f64; 7] = [1.0, 0.0, 0.0, 0.0, 0.3, 2.0, -0.7];
 
+fn start(values: &[f64]) -> State {
+    State::new(0.25, values.to_vec()).unwrap()
+}
+
+fn until(number: u64) -> impl FnMut(Step<'_>) -> ControlFlow<()> {
+    move |step| if step.number == number { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}
+
+/// Methods that keep nothing but the state.
 macro_rules! continued_runs_are_whole {
     ($method:expr, $system:expr, $start:expr) => {{
-        let mut whole = State::new(0.25, $start.to_vec()).unwrap();
+        let mut whole = start(&$start);
         let report = $method.integrate_to($system, &mut whole, END).unwrap();
         for stop in [1, 9, report.steps - 1] {
-            let mut state = State::new(0.25, $start.to_vec()).unwrap();
-            $method
-                .integrate($system, &mut state, END, |step| {
-                    if step.number == stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-                })
-                .unwrap();
+            let mut state = start(&$start);
+            $method.integrate($system, &mut state, END, until(stop)).unwrap();
             let mut state = written_and_read(&state);
             let rest = $method.integrate_to($system, &mut state, END).unwrap();
             assert_eq!((state, rest.steps), (whole.clone(), report.steps - stop), "{}, {stop}", stringify!($method));
@@ -38,20 +54,199 @@ macro_rules! continued_runs_are_whole {
     }};
 }
 
-#[test]
-fn on_groups() {
-    let start = [1.0, 0.0, 0.0, 0.0, 0.3, 2.0, -0.7];
-    for order in Order::ALL {
-        let mut top = Top::new([1.0, 2.0, 2.5], [0.0, 0.0, 1.0]);
-        continued_runs_are_whole!(MuntheKaas::new(order, 0.07).unwrap(), &mut top, start);
+/// Methods with checkpoints: `run` integrates with an observer, `resume` goes on from a checkpoint with a new method.
+fn resumed_runs_are_whole<M>(
+    name: &str,
+    start: &State,
+    method: impl Fn() -> M,
+    run: impl Fn(&mut M, &mut State, &mut dyn FnMut(Step<'_>) -> ControlFlow<()>) -> Result<Report, IntegratorsError>,
+    checkpoint: impl Fn(&mut M, &State, Report) -> Checkpoint,
+    resume: impl Fn(
+        &mut M,
+        &Checkpoint,
+        &mut State,
+        &mut dyn FnMut(Step<'_>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError>,
+) {
+    let (mut whole, mut seen) = (start.clone(), Vec::new());
+    let report = run(&mut method(), &mut whole, &mut |step| {
+        seen.push(step.values.to_vec());
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    assert!(10 < report.steps, "{name}: {} steps", report.steps);
+    for stop in [1, 2, 9, report.steps - 1] {
+        let (mut state, mut first) = (start.clone(), method());
+        let stopped = run(&mut first, &mut state, &mut until(stop)).unwrap();
+        let kept = written_and_read(&checkpoint(&mut first, &state, stopped));
+        assert_eq!((kept.state(), kept.report().steps), (&state, stop));
+        // A new method, and a state that has nothing to do with it.
+        let mut continued = State::new(-1.0, vec![7.0; state.values.len()]).unwrap();
+        let mut next = stop;
+        let resumed = resume(&mut method(), &kept, &mut continued, &mut |step| {
+            next += 1;
+            assert_eq!((step.number, step.values), (next, &seen[usize::try_from(next).unwrap() - 1][..]), "{name}");
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+        assert_eq!(
+            (&continued, resumed.steps, resumed.ending),
+            (&whole, report.steps, report.ending),
+            "{name}, {stop}"
+        );
+        assert!(resumed.evaluations.abs_diff(report.evaluations) <= 1, "{name}: {resumed:?}, {report:?}");
     }
-    let mut top = Top::new([1.0, 2.0, 2.5], [0.0, 0.0, 1.0]);
-    continued_runs_are_whole!(CommutatorFree::new(0.07).unwrap(), &mut top, start);
+}
+
+macro_rules! with_checkpoints {
+    ($method:expr, $system:expr, $start:expr) => {
+        with_checkpoints!($method, $system, $start, integrate, resume)
+    };
+    ($method:expr, $system:expr, $start:expr, $integrate:ident, $resume:ident) => {
+        resumed_runs_are_whole(
+            stringify!($method),
+            &start(&$start),
+            || $method,
+            |method, state, observer| method.$integrate($system, state, END, observer),
+            |method, state, report| method.checkpoint(state, report),
+            |method, kept, state, observer| method.$resume($system, kept, state, END, observer),
+        )
+    };
+}
+
+/// h L((q₀ + q₁)/2, (q₁ − q₀)/h).
+struct Midpoint;
+impl DiscreteLagrangian for Midpoint {
+    fn freedom(&self) -> usize {
+        2
+    }
+    fn discrete_lagrangian<T: Real>(&self, chord: Chord<'_, T>) -> T {
+        let h = T::lit(chord.step);
+        let middle = [0, 1].map(|i| T::lit(0.5) * (chord.start[i] + chord.end[i]));
+        let v = [0, 1].map(|i| chord.change[i] / h);
+        h * Kepler.lagrangian(&middle, &v, T::zero())
+    }
 }
 
 #[test]
-fn of_pairs_by_sweeps() {
+fn on_groups() {
+    let top = || Top::new([1.0, 2.0, 2.5], [0.0, 0.0, 1.0]);
     for order in Order::ALL {
-        continued_runs_are_whole!(LobattoPair::new(order, 0.07).unwrap(), &mut kepler(), kepler_at(0.2, 0.0));
+        continued_runs_are_whole!(MuntheKaas::new(order, 0.07).unwrap(), &mut top(), TOP);
+    }
+    continued_runs_are_whole!(CommutatorFree::new(0.07).unwrap(), &mut top(), TOP);
+    with_checkpoints!(AdaptiveMuntheKaas::new(Tolerance::relative(1e-11).unwrap()), &mut top(), TOP);
+    with_checkpoints!(GeneralisedAlpha::new(0.8, 0.07).unwrap(), &mut top(), TOP);
+}
+
+#[test]
+fn of_collocation_and_pairs() {
+    for order in Order::ALL {
+        with_checkpoints!(LobattoPair::new(order, 0.07).unwrap(), &mut kepler(), kepler_at(0.2, 0.0));
+        with_checkpoints!(
+            LobattoPair::new(order, 0.07).unwrap(),
+            &mut kepler(),
+            kepler_at(0.2, 0.0),
+            integrate_by_newton,
+            resume_by_newton
+        );
+        with_checkpoints!(GaussCollocation::new(order, 0.07).unwrap(), &mut kepler(), kepler_at(0.2, 0.0));
+    }
+}
+
+#[test]
+fn of_variational_integrators() {
+    for (rule, order) in variational::all() {
+        with_checkpoints!(VariationalIntegrator::new(rule, order, 0.07).unwrap(), &Kepler, kepler_at(0.2, 0.0));
+    }
+    with_checkpoints!(DiscreteEulerLagrange::new(0.07).unwrap(), &Midpoint, kepler_at(0.2, 0.0));
+}
+
+#[test]
+fn of_discrete_gradients() {
+    for order in Order::ALL {
+        with_checkpoints!(DiscreteGradient::new(order, 0.07).unwrap(), &HenonHeiles, [0.1, 0.2, 0.3, 0.1]);
+    }
+    let damped = DampedPendulum { friction: 0.3 };
+    with_checkpoints!(DiscreteGradient::new(Order::Two, 0.07).unwrap(), &damped, [1.0, 0.2]);
+}
+
+/// An attraction that grows with time, so that a force at the wrong moment shows.
+fn growing() -> impl Separable<Error = core::convert::Infallible> {
+    separable(2, |t: f64, q: &[f64], force: &mut [f64]| {
+        let factor = -(1.0 + 0.1 * t) / (q[0] * q[0] + q[1] * q[1]).powf(1.5);
+        force.copy_from_slice(&[factor * q[0], factor * q[1]]);
+    })
+}
+
+#[test]
+fn of_reversible_steps() {
+    for scheme in [SplittingScheme::Composition(Order::Two), SplittingScheme::Nystrom6] {
+        resumed_runs_are_whole(
+            &scheme.to_string(),
+            &start(&kepler_at(0.5, 0.0)),
+            || ReversibleComposition::new(scheme, 0.1).unwrap(),
+            |method, state, observer| method.integrate(&mut growing(), &Distance, state, END, observer),
+            |method, state, report| method.checkpoint(state, report),
+            |method, kept, state, observer| method.resume(&mut growing(), &Distance, kept, state, END, observer),
+        );
+    }
+}
+
+#[test]
+fn a_checkpoint_of_another_size_is_refused() {
+    let mut state = start(&kepler_at(0.2, 0.0));
+    let mut method = LobattoPair::new(Order::Four, 0.07).unwrap();
+    let report = method.integrate(&mut kepler(), &mut state, END, until(3)).unwrap();
+    let kept = method.checkpoint(&state, report);
+    let before = state.clone();
+    let run = LobattoPair::new(Order::Six, 0.07)
+        .unwrap()
+        .resume(&mut kepler(), &kept, &mut state, END, |_step| ControlFlow::Continue(()));
+    assert!(matches!(
+        run,
+        Err(IntegratorsError::WrongLength { quantity: "checkpoint.memory", expected: 16, found: 12 })
+    ));
+    let run =
+        GaussCollocation::new(Order::Four, 0.07)
+            .unwrap()
+            .resume(&mut kepler(), &kept, &mut state, END, |_step| ControlFlow::Continue(()));
+    assert!(matches!(run, Err(IntegratorsError::WrongLength { quantity: "checkpoint.memory", .. })), "{run:?}");
+    assert_eq!(state, before);
+    let unused = ReversibleComposition::new(SplittingScheme::Nystrom6, 0.1).unwrap().checkpoint(&state, report);
+    let run = ReversibleComposition::new(SplittingScheme::Nystrom6, 0.1).unwrap().resume(
+        &mut growing(),
+        &Distance,
+        &unused,
+        &mut state,
+        END,
+        |_step| ControlFlow::Continue(()),
+    );
+    assert_eq!(run, Err(IntegratorsError::WrongLength { quantity: "checkpoint.numbers", expected: 1, found: 0 }));
+    assert_eq!(state, before);
+}
+
+/// A matrix is read with its exchanges of rows: a row that is none is refused.
+#[cfg(feature = "serde")]
+#[test]
+fn a_written_checkpoint_with_an_impossible_row_is_refused() {
+    let mut state = start(&kepler_at(0.2, 0.0));
+    let mut method = GaussCollocation::new(Order::Two, 0.07).unwrap();
+    let report = method.integrate(&mut kepler(), &mut state, END, until(3)).unwrap();
+    let written = serde_json::to_value(method.checkpoint(&state, report)).unwrap();
+    for wrong in [4.0, -1.0, 1e300] {
+        let mut value = written.clone();
+        value["numbers"][2] = serde_json::json!(wrong);
+        let kept: Checkpoint = serde_json::from_value(value).unwrap();
+        let before = state.clone();
+        let run = method.resume(&mut kepler(), &kept, &mut state, END, |_step| ControlFlow::Continue(()));
+        assert!(
+            matches!(
+                run,
+                Err(IntegratorsError::OutsideMatrix { quantity: "checkpoint.numbers", column: 1, dimension: 4, .. })
+            ),
+            "{run:?}"
+        );
+        assert_eq!(state, before);
     }
 }

@@ -27,7 +27,7 @@ impl Separable for Kepler {
 }
 
 /// |q|^(3/2).
-struct Distance;
+pub(crate) struct Distance;
 impl StepLength for Distance {
     fn length<T: Real>(&self, q: &[T]) -> T {
         let square = q[0] * q[0] + q[1] * q[1];

@@ -79,12 +79,11 @@ fn figure_eight_is_that_of_its_reference() {
     }
 }
 
-/// A pair with e = 0.999999, a thousand times around, its centre flying: the pericentre is passed at 1400 times the mean speed.
+/// A pair with e = 0.999999, ten thousand times around, its centre flying: the pericentre is passed at 1400 times the mean speed.
 #[test]
 fn very_long_ellipse_costs_two_or_three_times_a_short_one() {
-    let revolutions = 1000.0;
     let mut steps = Vec::new();
-    for eccentricity in [0.5_f64, 0.999_999] {
+    for (eccentricity, revolutions) in [(0.5_f64, 1e3), (0.999_999, 1e4)] {
         // From the apocentre, Gm = ½ each: a = 1, period 2π.
         let bodies = Gravitation::new(vec![0.5, 0.5]).unwrap();
         let (far, slow) = (1.0 + eccentricity, ((1.0 - eccentricity) / (1.0 + eccentricity)).sqrt());
@@ -98,17 +97,18 @@ fn very_long_ellipse_costs_two_or_three_times_a_short_one() {
         let mut state = State::new(0.0, start).unwrap();
         let time = revolutions * std::f64::consts::TAU;
         let report = Regularised::to_rounding().integrate_to(&bodies, &mut state, time).unwrap();
-        steps.push(report.steps);
+        steps.push(report.steps as f64 / revolutions);
         let (first, second) = (bodies.position(&state.values, 0), bodies.position(&state.values, 1));
         let relative = [0, 1, 2].map(|axis| first[axis] - second[axis]);
-        let tolerance = Tol::stated(1e-8, "3πN² times an ulp of the energy a revolution, N = 1000");
+        let tolerance =
+            Tol::stated(1e-14, "3πN² times a hundredth of an ulp of the energy").times(revolutions * revolutions);
         assert_close_at_scale(&format!("e = {eccentricity}"), &relative, &[far, 0.0, 0.0], far, tolerance);
         assert_close_at_scale("centre", &[0.5 * (first[2] + second[2])], &[0.125 * time], time, Tol::ulps(64.0));
-        // A step that ends near the pericentre, where the kinetic energy is 10⁶ times the energy, rounds there.
+        // Steps that end near the pericentre, where the kinetic energy is 10⁶ times the energy, round there: it walks at random.
         let change = bodies.invariants(&state.values).energy / energy - 1.0;
-        assert!(change.abs() < 1e-10, "energy changed by {change}");
+        assert!(change.abs() < 3e-12 * revolutions.sqrt(), "energy changed by {change}");
     }
-    assert!(steps[1] < 3 * steps[0], "{steps:?}");
+    assert!(steps[1] < 3.0 * steps[0], "{steps:?}");
 }
 
 /// Straight into each other: the fall from rest at distance d lasts π/2 √(d³/(2μ)), and mirrors itself.

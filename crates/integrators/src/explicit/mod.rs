@@ -152,7 +152,7 @@ pub fn follow<T: Real, F, P: EmbeddedPair<T, F>>(
         &mut Report,
     ) -> Result<ControlFlow<Ending>, IntegratorsError<P::Error>>,
 ) -> Result<Report, IntegratorsError<P::Error>> {
-    let mut report = resumed.map_or(Report::begin(), |checkpoint| checkpoint.report);
+    let mut report = resumed.map_or(Report::begin(), |checkpoint| checkpoint.report.continued());
     let mut step = pair.begin(field, state, end, resumed, &mut report)?;
     let span = end - state.time;
     let direction = span.signum();

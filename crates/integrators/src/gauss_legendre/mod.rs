@@ -26,8 +26,8 @@ use piola_numerics::Real;
 
 use self::tableaux::{STAGES_1, STAGES_2, STAGES_3, STAGES_4, Tableau};
 use crate::field::largest_lane;
-use crate::state::{check_finite, check_run, check_step, check_sums, compensated_add, equal_steps};
-use crate::{Ending, Field, IntegratorsError, Order, Report, State, Step};
+use crate::state::{check_finite, check_run, check_step, check_sums, compensated_add};
+use crate::{Checkpoint, Ending, Field, IntegratorsError, Order, Report, State, Step};
 
 /// Sweeps over the stages after which a step is given up.
 const MOST_SWEEPS: usize = 100;
@@ -119,11 +119,45 @@ impl<T: Real> GaussLegendre<T> {
         end: f64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.follow(field, None, state, end, observer)
+    }
+
+    /// The run where it stands, to be continued by [`resume`](Self::resume): the state and the report of a run of this method that has
+    /// ended or that the observer has stopped.
+    #[must_use]
+    pub fn checkpoint(&self, state: &State<T>, report: Report) -> Checkpoint<T> {
+        Checkpoint::of(state.clone(), report, self.workspace.increments.clone(), Vec::new())
+    }
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    pub fn resume<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.follow(field, Some(checkpoint), state, end, observer)
+    }
+
+    fn follow<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        resumed: Option<&Checkpoint<T>>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
         match self.order {
-            Order::Two => self.run(&STAGES_1, field, state, end, observer),
-            Order::Four => self.run(&STAGES_2, field, state, end, observer),
-            Order::Six => self.run(&STAGES_3, field, state, end, observer),
-            Order::Eight => self.run(&STAGES_4, field, state, end, observer),
+            Order::Two => self.run(&STAGES_1, field, resumed, state, end, observer),
+            Order::Four => self.run(&STAGES_2, field, resumed, state, end, observer),
+            Order::Six => self.run(&STAGES_3, field, resumed, state, end, observer),
+            Order::Eight => self.run(&STAGES_4, field, resumed, state, end, observer),
         }
     }
 
@@ -131,11 +165,15 @@ impl<T: Real> GaussLegendre<T> {
         &mut self,
         tableau: &Tableau<S>,
         field: &mut F,
+        resumed: Option<&Checkpoint<T>>,
         state: &mut State<T>,
         end: f64,
         mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
         let n = field.dimension();
+        if let Some(checkpoint) = resumed {
+            checkpoint.open(state, S * n, 0, &[])?;
+        }
         check_run(n, state, end)?;
         let work = &mut self.workspace;
         work.increments.resize(S * n, T::zero());
@@ -145,16 +183,20 @@ impl<T: Real> GaussLegendre<T> {
         work.magnitudes.resize(n, 0.0);
         work.magnitudes_at_last_stage.resize(n, 0.0);
         work.continued = false;
+        if let Some(checkpoint) = resumed {
+            work.increments.copy_from_slice(checkpoint.memory().0);
+            work.continued = 0 < checkpoint.report().steps;
+        }
 
-        let start = state.time;
-        let (steps, h) = equal_steps(start, end, self.step)?;
+        let (steps, taken) = state.begin_equal_steps(end, self.step)?;
+        let h = steps.length;
         // The increments' weights sum to the step exactly.
         let mut weights = tableau.weights.map(|b| h * b);
         let others: f64 = weights.iter().sum::<f64>() - weights[S / 2];
         weights[S / 2] = h - others;
 
-        let mut report = Report::begin();
-        for number in 1..=steps {
+        let mut report = resumed.map_or(Report::begin(), Checkpoint::report).continued();
+        for number in taken + 1..=steps.count {
             report.evaluations += solve_stages(tableau, &weights, h, field, state, work)?;
             for (i, total) in work.rate.iter_mut().enumerate() {
                 // The increments of all stages are of one size, and one order is as good as another; what
@@ -169,9 +211,9 @@ impl<T: Real> GaussLegendre<T> {
                 compensated_add(y, carry, total);
             }
             work.continued = true;
-            state.set_time(if number == steps { end } else { start + h * number as f64 });
-            report.steps = number;
-            if observer(Step { number, time: state.time, values: &state.values }).is_break() {
+            state.set_time(steps.time(number));
+            report.steps += 1;
+            if observer(Step { number: report.steps, time: state.time, values: &state.values }).is_break() {
                 report.ending = Ending::Stopped;
                 break;
             }

@@ -37,6 +37,7 @@ use self::stages::Workspace;
 use self::tableau::Stages;
 use crate::collocation::{Control, Plan, follow};
 use crate::events::stopped_by;
+use crate::second_order::check_freedom;
 use crate::state::{check_run, check_step};
 use crate::{Checkpoint, IntegratorsError, Report, SecondOrder, State, Tolerance};
 
@@ -189,6 +190,7 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Self::Output {
         let Run { method, field, state, end, resumed, mut observer } = self;
+        check_freedom::<Stages, F>(field)?;
         let n = field.freedom();
         method.work.begin(n);
         if let Some(checkpoint) = resumed {

@@ -153,6 +153,7 @@ impl<F: SecondOrder<Stages>> Collocation<f64, F> for Workspace {
         most: f64,
         evaluations: &mut u64,
     ) -> Result<Attempt, F::Error> {
+        // Not F::FREEDOM: unrolled over two coordinates the sweep needs more registers than there are, and takes up to a third longer.
         let n = self.accelerations.len();
         let (q, v) = state.values.split_at(n);
         let (q_carry, v_carry) = state.carry.split_at(n);

@@ -46,6 +46,7 @@ pub use self::dense::GaussRadauStep;
 use self::stages::Workspace;
 use crate::collocation::{Control, Plan, follow};
 use crate::events::{Stop, begin, locate, stopped_by};
+use crate::second_order::check_freedom;
 use crate::state::{check_longest, check_run, check_step};
 use crate::{Checkpoint, Event, IntegratorsError, Occurrence, Report, SecondOrder, State, Tolerance};
 
@@ -302,6 +303,7 @@ where
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Self::Output {
         let Run { method, field, state, end, resumed, mut inspect } = self;
+        check_freedom::<T, F>(field)?;
         let n = field.freedom();
         let work = &mut method.work;
         work.begin(n);

@@ -3,8 +3,8 @@
 use core::ops::ControlFlow;
 
 use piola_integrators::{
-    Checkpoint, Composition, DormandPrince853, Field, GaussLegendre16, GaussRadau15, IntegratorsError, Nystrom86,
-    Nystrom1210, Order, SecondOrder, SplittingScheme, State, Step, Tolerance, Verner98,
+    Checkpoint, Composition, DormandPrince853, Field, GaussLegendre, GaussLegendre16, GaussRadau15, IntegratorsError,
+    Nystrom86, Nystrom1210, Order, SecondOrder, SplittingScheme, State, Step, Tolerance, Verner98, separable,
 };
 use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close};
@@ -235,6 +235,62 @@ fn stopped_runs_of_equal_steps_go_on_with_the_same_steps() {
             let mut state = state_written_and_read(&state);
             let second = method().integrate_to(&mut kepler(), &mut state, 7.0).unwrap();
             assert_eq!((state, first.steps + second.steps), (whole.clone(), report.steps), "{scheme}, {stop}");
+        }
+    }
+}
+
+/// The force at the end of a step is kept for the next one; in a run that goes on it is computed anew, at the same moment.
+#[test]
+fn stopped_runs_with_forces_that_depend_on_time_go_on_too() {
+    let growing = || {
+        separable(2, |t: f64, q: &[f64], force: &mut [f64]| {
+            let factor = -(1.0 + 0.1 * t) / (q[0] * q[0] + q[1] * q[1]).powf(1.5);
+            force.copy_from_slice(&[factor * q[0], factor * q[1]]);
+        })
+    };
+    for scheme in SplittingScheme::ALL {
+        let method = || Composition::with_scheme(scheme, 0.07).unwrap();
+        let start = || State::new(0.25, kepler_at(0.2, 0.0).to_vec()).unwrap();
+        let mut whole = start();
+        let steps = method().integrate_to(&mut growing(), &mut whole, 7.0).unwrap().steps;
+        for stop in 1..steps {
+            let mut state = start();
+            let until =
+                |step: Step<'_>| if step.number == stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+            method().integrate(&mut growing(), &mut state, 7.0, until).unwrap();
+            method().integrate_to(&mut growing(), &mut state, 7.0).unwrap();
+            assert_eq!(state, whole, "{scheme}, {stop}");
+        }
+    }
+}
+
+#[test]
+fn gauss_legendre_continues_from_any_step() {
+    for order in Order::ALL {
+        let method = || GaussLegendre::new(order, 0.07).unwrap();
+        let (mut whole, mut seen) = (start(), Vec::new());
+        let report = method()
+            .integrate(&mut kepler(), &mut whole, 7.0, |step| {
+                seen.push(step.values.to_vec());
+                ControlFlow::Continue(())
+            })
+            .unwrap();
+        for stop in [1, 2, 13, report.steps - 1] {
+            let (mut state, mut first) = (start(), method());
+            let until =
+                |step: Step<'_>| if step.number == stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+            let stopped = first.integrate(&mut kepler(), &mut state, 7.0, until).unwrap();
+            let kept = written_and_read(&first.checkpoint(&state, stopped));
+            let mut continued = State::new(-1.0, vec![7.0; 4]).unwrap();
+            let mut next = stop;
+            let resumed = method()
+                .resume(&mut kepler(), &kept, &mut continued, 7.0, |step| {
+                    next += 1;
+                    assert_eq!((step.number, step.values), (next, &seen[usize::try_from(next).unwrap() - 1][..]));
+                    ControlFlow::Continue(())
+                })
+                .unwrap();
+            assert_eq!((continued, resumed), (whole.clone(), report), "{order:?}, {stop}");
         }
     }
 }

@@ -203,6 +203,19 @@ fn no_events_cost_no_evaluations() {
     assert_eq!(plain, watched);
 }
 
+/// An event whose function keeps its sign is looked at and never found; the run and its state are those of a run without it.
+#[test]
+fn event_that_never_fires_leaves_the_run_alone() {
+    let start = State::new(0.0, vec![1.0, 0.0]).unwrap();
+    let (mut plain, mut watched) = (start.clone(), start);
+    let expected = precise().integrate_to(&mut oscillator(), &mut plain, 10.0).unwrap();
+    let mut events = [Event::new(Crossing::Either, EventAction::Stop, |_t, y| y[0] + 1.5)];
+    let (report, found) = run(&mut precise(), &mut oscillator(), &mut watched, 10.0, &mut events);
+    let report = report.unwrap();
+    assert_eq!((report.ending, report.steps, found.len()), (Ending::Reached, expected.steps, 0));
+    assert_eq!(plain, watched);
+}
+
 #[test]
 fn event_that_is_nan_is_refused_by_its_index() {
     let mut state = State::new(0.0, vec![1.0, 0.0]).unwrap();

@@ -15,10 +15,12 @@ mod laws;
 mod orders;
 mod pairs;
 mod problems;
+mod processed;
 mod radau_15;
 mod sensitivity;
 #[cfg(feature = "serde")]
 mod serialised;
+mod slopes;
 mod splittings;
 mod traps;
 mod turning_frame;

@@ -23,13 +23,14 @@ mod newton;
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::{DIRECTIONS, check_step};
-use piola_integrators::{IntegratorsError, Report, State, Step, unobserved};
+use piola_integrators::{Checkpoint, IntegratorsError, Report, State, Step, unobserved};
 use piola_numerics::{Gradient, Real};
 
 use self::newton::Workspace;
 use super::LieGroup;
 use super::run::check_start;
 use crate::fixed_step::take_checked_steps;
+use crate::kept::{Kept, checkpoint_of};
 
 /// A mechanical system on a Lie group: q̇ = q v, M(q) v̇ = f(t, q, v), generic over its scalar.
 ///
@@ -100,7 +101,7 @@ impl Parameters {
 /// # Accuracy
 /// Global error O(h²) in q and v. The linear oscillator keeps its energy to rounding with ρ∞ = 1. A step rounds a vibration of
 /// frequency ω by (hω)² ulp of its amplitude. Each run begins with a = v̇: a run that is cut in two differs from one in one
-/// piece by O(h²).
+/// piece by O(h²), unless [`resume`](Self::resume) continues it.
 ///
 /// # Example
 /// ```
@@ -208,18 +209,54 @@ impl<T: Real> GeneralisedAlpha<T> {
     where
         F: GroupMotion<Gradient<T, DIRECTIONS>, Group: LieGroup<T>>,
     {
+        self.run(system, None, state, end, observer)
+    }
+
+    checkpoint_of!(work);
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    pub fn resume<F>(
+        &mut self,
+        system: &mut F,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>>
+    where
+        F: GroupMotion<Gradient<T, DIRECTIONS>, Group: LieGroup<T>>,
+    {
+        self.run(system, Some(checkpoint), state, end, observer)
+    }
+
+    fn run<F>(
+        &mut self,
+        system: &mut F,
+        resumed: Option<&Checkpoint<T>>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>>
+    where
+        F: GroupMotion<Gradient<T, DIRECTIONS>, Group: LieGroup<T>>,
+    {
         let (length, n) = newton::lengths::<T, _>(system.group());
+        self.work.resize(length, n);
+        let mut before = resumed.map_or(Ok(Report::begin()), |checkpoint| self.work.restore(checkpoint, state))?;
         check_start::<T, _>(system.group(), n, state, end)?;
         let Self { parameters, work, .. } = self;
-        work.resize(length, n);
         if (end - state.time).abs() <= 0.0 {
-            return Ok(Report::begin());
+            return Ok(before);
         }
-        let first = work.begin(*parameters, system, state)?;
-        let mut report = take_checked_steps(self.step, state, end, observer, |state, h| {
+        if resumed.is_none() {
+            before.evaluations += work.begin(*parameters, system, state)?;
+        }
+        take_checked_steps((before, self.step), state, end, observer, |state, h| {
             work.advance(*parameters, system, state, h)
-        })?;
-        report.evaluations += first;
-        Ok(report)
+        })
     }
 }

@@ -9,6 +9,7 @@ use piola_numerics::{Gradient, NumericsError, Real};
 use super::super::LieGroup;
 use super::super::run::Trial;
 use super::{GroupMotion, Parameters};
+use crate::kept::{Kept, Visitor};
 
 /// Iterations after which a step is given up.
 const MOST_ITERATIONS: usize = 30;
@@ -54,6 +55,13 @@ struct Point<S> {
 /// The length of an element and the dimension of a group that is one over two scalars.
 pub(super) fn lengths<T: Real, G: LieGroup<T>>(group: &G) -> (usize, usize) {
     (group.element_length(), group.dimension())
+}
+
+impl<T: Real> Kept<T> for Workspace<T> {
+    fn visit<V: Visitor<T>>(&mut self, visitor: &mut V) {
+        visitor.values(&mut self.acceleration);
+        visitor.values(&mut self.algorithmic);
+    }
 }
 
 impl<T: Real> Workspace<T> {

@@ -3,9 +3,10 @@
 use core::convert::Infallible;
 
 use piola_integrators::{
-    DormandPrince853, Field, IntegratorsError, Nystrom86, Nystrom1210, SecondOrder, State, Tolerance, Verner98,
-    sized_field,
+    DormandPrince853, Field, GaussLegendre16, GaussRadau15, IntegratorsError, Nystrom86, Nystrom1210, SecondOrder,
+    State, Tolerance, Verner98, sized_field,
 };
+use piola_numerics::Real;
 use piola_testkit::allocations_in;
 
 use crate::problems::{Attraction, Force, kepler, kepler_at};
@@ -26,14 +27,14 @@ impl<const STATED: usize> Field for Sized<STATED> {
     }
 }
 
-impl<const STATED: usize> SecondOrder for Sized<STATED> {
+impl<const STATED: usize, T: Real> SecondOrder<T> for Sized<STATED> {
     type Error = Infallible;
     const VELOCITY_DEPENDENT: bool = false;
     const FREEDOM: Option<usize> = Some(STATED);
     fn freedom(&self) -> usize {
         self.0
     }
-    fn acceleration(&mut self, _t: f64, q: &[f64], _v: &[f64], acceleration: &mut [f64]) -> Result<(), Infallible> {
+    fn acceleration(&mut self, _t: T, q: &[T], _v: &[T], acceleration: &mut [T]) -> Result<(), Infallible> {
         Attraction.force(0.0, q, acceleration);
         Ok(())
     }
@@ -59,6 +60,8 @@ fn a_known_size_gives_the_same_run_to_the_last_bit() {
     same_run!(Verner98);
     same_run!(Nystrom86);
     same_run!(Nystrom1210);
+    same_run!(GaussLegendre16);
+    same_run!(GaussRadau15);
 }
 
 #[test]
@@ -69,6 +72,10 @@ fn a_field_of_another_size_than_its_type_states_is_refused() {
     let run = DormandPrince853::new(tolerance).integrate_to(&mut Sized::<3>(2), &mut state, 1.0);
     assert_eq!(run, Err(wrong(6, 4)));
     let run = Nystrom86::new(tolerance).integrate_to(&mut Sized::<3>(2), &mut state, 1.0);
+    assert_eq!(run, Err(wrong(3, 2)));
+    let run = GaussLegendre16::new(tolerance).integrate_to(&mut Sized::<3>(2), &mut state, 1.0);
+    assert_eq!(run, Err(wrong(3, 2)));
+    let run = GaussRadau15::new(tolerance).integrate_to(&mut Sized::<3>(2), &mut state, 1.0);
     assert_eq!(run, Err(wrong(3, 2)));
     assert_eq!(state, start());
 }
