@@ -10,12 +10,18 @@ use piola_measured::sides::{SidesMeasurements, SidesModel, SidesOptions, card_of
 use crate::arguments::FitArguments;
 use crate::commands::{listing, note, print, refused};
 use crate::interrupt::Interrupt;
-use crate::{Exit, comparison, flows};
+use crate::{Exit, comparison, flows, histories};
+
+/// The names of laws with history, also of a program that is built without them.
+const WITH_HISTORY: [&str; 4] = ["bergstrom-boyce", "reese-govindjee", "ogden-roxburgh", "viscoplastic"];
 
 pub(crate) fn fit(arguments: &FitArguments) -> Exit {
     let is_of_sides = |name: &String| name.parse::<SidesModel>().is_ok();
     if arguments.laws.iter().any(is_of_sides) {
         return with_sides(arguments);
+    }
+    if arguments.laws.iter().any(|name| WITH_HISTORY.contains(&name.as_str())) {
+        return histories::fit(arguments);
     }
     let interrupt = Interrupt::listen();
     let prepared = flows::only(&arguments.only).and_then(|only| {
@@ -96,9 +102,13 @@ fn with_sides(arguments: &FitArguments) -> Exit {
     if found.is_complete() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
 }
 
-/// The options of such a fit; those that it does not have are refused.
-fn sides_options(arguments: &FitArguments) -> Result<SidesOptions, MeasuredError> {
-    let unused = [
+/// Refuses options that a kind of fit does not have; it has those that are named, --law, --confidence, --out and --json.
+pub(crate) fn refuse_all_but(
+    arguments: &FitArguments,
+    used: &[&str],
+    valid: &'static str,
+) -> Result<(), MeasuredError> {
+    let options = [
         (arguments.mode_weights.is_some(), "--mode-weights"),
         (arguments.equal_errors, "--equal-errors"),
         (arguments.allow_unstable, "--allow-unstable"),
@@ -107,11 +117,18 @@ fn sides_options(arguments: &FitArguments) -> Result<SidesOptions, MeasuredError
         (arguments.to.is_some(), "--to"),
         (arguments.profile, "--profile"),
         (!arguments.bounds.is_empty(), "--bound"),
+        (!arguments.cards.is_empty(), "--card"),
     ];
-    if let Some((_, option)) = unused.iter().find(|(given, _)| *given) {
-        let valid = "for laws of foam and of fibres: --law, --confidence, --card, --out and --json";
-        return Err(MeasuredError::Argument { argument: (*option).to_owned(), valid });
+    match options.iter().find(|(given, option)| *given && !used.contains(option)) {
+        Some((_, option)) => Err(MeasuredError::Argument { argument: (*option).to_owned(), valid }),
+        None => Ok(()),
     }
+}
+
+/// The options of a fit of foam or fibres.
+fn sides_options(arguments: &FitArguments) -> Result<SidesOptions, MeasuredError> {
+    let valid = "for laws of foam and of fibres: --law, --confidence, --card, --out and --json";
+    refuse_all_but(arguments, &["--card"], valid)?;
     let mut options = SidesOptions::default();
     options.confidence = arguments.confidence;
     Ok(options)

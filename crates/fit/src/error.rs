@@ -122,6 +122,22 @@ pub enum FitError {
         /// Its value.
         value: f64,
     },
+    /// A measured number is not negative and finite.
+    #[error("row {row}: the {quantity} is {value}; it must be negative and finite")]
+    RowNotNegative {
+        /// The row, from 0.
+        row: usize,
+        /// The quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A second normal stress difference is measured, and that of the fluid is zero.
+    #[error("{model} has no second normal stress difference; of the viscoelastic fluids only giesekus has one")]
+    NoSecondNormalStressDifference {
+        /// The fluid.
+        model: String,
+    },
     /// A rate of a flow is not positive and finite.
     #[error("the rate of the flow is {value}; it must be positive and finite")]
     RateNotPositive {

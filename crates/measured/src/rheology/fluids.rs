@@ -339,7 +339,9 @@ impl Comparison {
         for (fluid, fit) in self.fits() {
             let _ = writeln!(text, "{fluid}");
             for found in &fit.parameters {
-                let _ = writeln!(text, "{}", parameter(found));
+                let line =
+                    parameter_in_words(found.name, found.value, (found.standard_error, found.interval, found.state));
+                let _ = writeln!(text, "{line}");
             }
         }
         text.push('\n');
@@ -406,13 +408,17 @@ impl Comparison {
 }
 
 /// A parameter with its interval for a reader.
-fn parameter(FluidParameter { name, value, standard_error, interval, state, .. }: &FluidParameter) -> String {
+pub(crate) fn parameter_in_words(
+    name: &str,
+    value: f64,
+    (standard_error, interval, state): (Option<f64>, Option<[f64; 2]>, State),
+) -> String {
     let mut line = format!("  {name:<26}");
     let _ = match (state, standard_error, interval) {
         (State::AtBound, _, Some([_, high])) => write!(line, "{:>13}  at its bound, below {high:.4e}", 0),
         (State::AtBound, _, None) => write!(line, "{value:>13.5e}  at its bound"),
         (State::Determined, Some(error), Some([low, high])) => {
-            write!(line, "{value:>13.5e} ± {error:.1e}  [{}, {}]", end(*low), end(*high))
+            write!(line, "{value:>13.5e} ± {error:.1e}  [{}, {}]", end(low), end(high))
         }
         (State::NoDegreesOfFreedom, _, _) => write!(line, "{value:>13.5e}  no error: no degrees of freedom"),
         _ => write!(line, "{value:>13.5e}  not determined by these data"),
@@ -431,10 +437,10 @@ fn end(x: f64) -> String {
     }
 }
 
-fn largest(residuals: &[f64]) -> f64 {
+pub(crate) fn largest(residuals: &[f64]) -> f64 {
     residuals.iter().fold(0.0, |most, r| most.max(r.abs()))
 }
 
-fn rms(residuals: &[f64]) -> f64 {
+pub(crate) fn rms(residuals: &[f64]) -> f64 {
     (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len().max(1) as f64).sqrt()
 }

@@ -11,6 +11,7 @@
 //! | `stress` | first Piola–Kirchhoff stress; of volumetric tests the pressure |
 //! | `lateral stretch` or `lateral strain` | of the side: λ₂ of uniaxial, λ₁ of transverse, λ₃ of equibiaxial and planar tests |
 
+pub(crate) mod columns;
 mod table;
 
 pub use piola_fit::sides::{Loading, SidesFit, SidesModel, SidesOptions, SidesTest};
