@@ -220,6 +220,14 @@ pub enum FitError {
         /// The loading.
         loading: &'static str,
     },
+    /// The angle of a strip is not finite.
+    #[error("test `{test}`: the angle {value} of the strip is not finite")]
+    AngleNotFinite {
+        /// The test.
+        test: String,
+        /// The angle, radians.
+        value: f64,
+    },
     /// Lateral stretches are given of a test that has none to measure.
     #[error("the test `{test}` has lateral stretches, which {loading} tests do not tell")]
     NoLateral {

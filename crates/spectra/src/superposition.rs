@@ -4,7 +4,7 @@
 //! bₜ y(ω, θ) = y(ω aₜ, θ₀)      ln aₜ = (E/R) (1/θ − 1/θ₀)      log₁₀ aₜ = −C₁ (θ − θ₀)/(C₂ + θ − θ₀)
 //! ```
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Matrix2};
 use piola_fit::internal::{Misfit, Range, minimise};
 use piola_fit::{Covariance, Outcome, student};
 use piola_fluids::{Arrhenius, TemperatureShift, WilliamsLandelFerry};
@@ -56,12 +56,19 @@ pub fn horizontal_shifts(curves: &[IsothermalCurve<'_>], reference: usize) -> Re
 }
 
 /// A shift along both axes.
+///
+/// # Example
+/// See [`shifts_along_both_axes`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CurveShift {
     /// ln aₜ, added to ln ω.
     pub ln_horizontal: f64,
     /// ln bₜ, added to ln y.
     pub ln_vertical: f64,
+    /// 95 % interval of ln aₜ for independent relative errors of the moduli, of one size; none of the reference.
+    pub horizontal_interval: Option<[f64; 2]>,
+    /// 95 % interval of ln bₜ.
+    pub vertical_interval: Option<[f64; 2]>,
 }
 
 /// Shifts along both axes, from the curves of each temperature, such as G′ and G″, in the order of the temperatures.
@@ -78,7 +85,7 @@ pub struct CurveShift {
 ///
 /// # Accuracy
 /// As [`horizontal_shifts`], over the difference of slopes along the curves instead of the slope. Noise of the moduli scatters ln bₜ
-/// likewise.
+/// likewise: the intervals tell it. They do not hold the error of interpolation, and suppose that pairs of neighbours are independent.
 ///
 /// # Example
 /// ```
@@ -116,18 +123,35 @@ fn chained(
         return Err(SpectraError::WrongLength { quantity: "curves of a temperature", expected, found: other.len() });
     }
     let mut shifts = vec![CurveShift::default()];
+    let mut scatter = Vec::new();
     for (first, pair) in logarithms.windows(2).enumerate() {
         let shift = overlap([&pair[0], &pair[1]], vertical, first)?;
+        scatter.push(if vertical { scattered([&pair[0], &pair[1]], shift) } else { None });
         let before = shifts[first];
         shifts.push(CurveShift {
             ln_horizontal: before.ln_horizontal + shift.ln_horizontal,
             ln_vertical: before.ln_vertical + shift.ln_vertical,
+            ..CurveShift::default()
         });
     }
     let zero = shifts[reference];
-    for shift in &mut shifts {
+    for (index, shift) in shifts.iter_mut().enumerate() {
         shift.ln_horizontal -= zero.ln_horizontal;
         shift.ln_vertical -= zero.ln_vertical;
+        // Of the pairs between this curve and the reference.
+        let pairs = &scatter[index.min(reference)..index.max(reference)];
+        let Some(pairs) = pairs.iter().copied().collect::<Option<Vec<Scatter>>>().filter(|pairs| !pairs.is_empty())
+        else {
+            continue;
+        };
+        let degrees = pairs.iter().map(|pair| pair.degrees).min().unwrap_or(0);
+        let half = |axis: usize| {
+            let variance: f64 = pairs.iter().map(|pair| pair.variances[axis]).sum();
+            student(0.95, degrees).map(|t| t * variance.sqrt())
+        };
+        let about = |at: f64, half: Option<f64>| half.map(|half| [at - half, at + half]);
+        shift.horizontal_interval = about(shift.ln_horizontal, half(0));
+        shift.vertical_interval = about(shift.ln_vertical, half(1));
     }
     Ok(shifts)
 }
@@ -192,6 +216,65 @@ fn gap(fixed: &[Vec<[f64; 2]>], moved: &[Vec<[f64; 2]>], shift: f64) -> Gap {
     Gap { count, mean, mean_square }
 }
 
+/// The scatter of a shift along both axes by noise.
+#[derive(Clone, Copy)]
+struct Scatter {
+    /// Variances of ln a and ln b.
+    variances: [f64; 2],
+    degrees: usize,
+}
+
+/// The scatter of the shift of least squares: differences d = ln yₙ − ln y of all points, of which each holds the errors of three.
+///
+/// ```text
+/// d = A (δ ln a, ln b) + L ε      A = (slope, 1)      Cov = σ² (AᵀA)⁻¹ AᵀL LᵀA (AᵀA)⁻¹      σ² = Σ d²/Σ |row of L|²
+/// ```
+fn scattered([fixed, moved]: [&[Vec<[f64; 2]>]; 2], shift: CurveShift) -> Option<Scatter> {
+    let (mut normal, mut noise) = ([[0.0; 2]; 2], [[0.0; 2]; 2]);
+    let (mut squares, mut parts, mut count) = (0.0, 0.0, 0_usize);
+    for (fixed, moved) in fixed.iter().zip(moved) {
+        // AᵀL by the points of either curve.
+        let mut loads = [vec![[0.0; 2]; fixed.len()], vec![[0.0; 2]; moved.len()]];
+        for (own, (curve, other, sign)) in [(1, (moved, fixed, 1.0)), (0, (fixed, moved, -1.0))] {
+            for (place, &[x, y]) in curve.iter().enumerate() {
+                let at = x + sign * shift.ln_horizontal;
+                let next = other.partition_point(|point| point[0] < at).max(1);
+                let ([x0, y0], Some(&[x1, y1])) = (other[next - 1], other.get(next)) else { continue };
+                if at < x0 {
+                    continue;
+                }
+                let (share, slope) = ((at - x0) / (x1 - x0), (y1 - y0) / (x1 - x0));
+                let difference = sign * (y0 + share * (y1 - y0) - y) - shift.ln_vertical;
+                let row = [slope, 1.0];
+                for (i, normal) in normal.iter_mut().enumerate() {
+                    for (j, entry) in normal.iter_mut().enumerate() {
+                        *entry += row[i] * row[j];
+                    }
+                    loads[own][place][i] -= sign * row[i];
+                    loads[1 - own][next - 1][i] += sign * row[i] * (1.0 - share);
+                    loads[1 - own][next][i] += sign * row[i] * share;
+                }
+                squares += difference * difference;
+                parts += 1.0 + share * share + (1.0 - share) * (1.0 - share);
+                count += 1;
+            }
+        }
+        for load in loads.iter().flatten() {
+            for (i, noise) in noise.iter_mut().enumerate() {
+                for (j, entry) in noise.iter_mut().enumerate() {
+                    *entry += load[i] * load[j];
+                }
+            }
+        }
+    }
+    let inverse = Matrix2::from(normal).try_inverse()?;
+    let covariance = inverse * Matrix2::from(noise) * inverse * (squares / parts);
+    // Each pair of points is compared twice.
+    let degrees = (count / 2).checked_sub(2).filter(|degrees| 0 < *degrees)?;
+    let variances = [covariance[(0, 0)], covariance[(1, 1)]];
+    variances.iter().all(|x| x.is_finite()).then_some(Scatter { variances, degrees })
+}
+
 /// The shift that lays `moved` over `fixed`, curve by curve.
 fn overlap([fixed, moved]: [&[Vec<[f64; 2]>]; 2], vertical: bool, first: usize) -> Result<CurveShift, SpectraError> {
     const STEPS: u32 = 400;
@@ -250,7 +333,7 @@ fn overlap([fixed, moved]: [&[Vec<[f64; 2]>]; 2], vertical: bool, first: usize) 
     let middle = 0.5 * (a + b);
     let ln_horizontal = if misfit(middle) <= least_misfit { middle } else { best };
     let Gap { mean, .. } = gap(fixed, moved, ln_horizontal);
-    Ok(CurveShift { ln_horizontal, ln_vertical: if vertical { mean } else { 0.0 } })
+    Ok(CurveShift { ln_horizontal, ln_vertical: if vertical { mean } else { 0.0 }, ..CurveShift::default() })
 }
 
 /// A law of temperature fitted to shifts, with 95 % intervals of its constants.

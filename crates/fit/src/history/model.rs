@@ -8,6 +8,7 @@ use piola_solids::{Hencky, NeoHookeanCiarlet};
 
 use super::test::{HistoryTest, follow};
 use crate::FitError;
+use crate::sides::Loading;
 
 /// A parameter of a model: its name, whether it is in the unit of the stresses, and its bounds.
 pub type HistoryParameter = (&'static str, bool, [f64; 2]);

@@ -21,7 +21,7 @@ pub use table::HistoryMeasurements;
 use core::ops::ControlFlow;
 
 use piola_fit::FitError;
-use piola_fit::history::{HistoryModel as _, fit_history_until};
+use piola_fit::history::{HistoryModel as _, StepControl, fit_history_until};
 
 use crate::MeasuredError;
 use crate::comparison::{Comparison, Judged, Watch};
@@ -98,6 +98,9 @@ impl Judged for HistoryFit {
     }
 }
 
+/// The accuracy of stresses where starts are tried, and evaluations for each unknown.
+const ROUGHLY: (f64, usize) = (1e-4, 25);
+
 /// What tests with free sides do not tell, and one of `rate` and `stress`: held unless there is a bound for it.
 const HELD: [&str; 4] = ["first_lame_parameter", "overstress_first_lame_parameter", "rate", "perturbation"];
 
@@ -159,8 +162,11 @@ fn fitted(
 ) -> Result<HistoryFit, FitError> {
     let given: Vec<&(AnyHistoryModel, String, [f64; 2])> =
         request.bounds.iter().filter(|(other, ..)| *other == law).collect();
-    let mut best: Option<HistoryFit> = None;
+    // From all starts roughly, then from the best one.
+    let mut best: Option<(HistoryFit, HistoryOptions)> = None;
     let mut refused = None;
+    let (accuracy, patience) = ROUGHLY;
+    let rough = StepControl::new(accuracy).map_err(FitError::from)?;
     for start in law.starts(&measurements.tests) {
         let mut options = HistoryOptions::default();
         options.confidence = request.confidence;
@@ -170,8 +176,12 @@ fn fitted(
                 options = options.with_bounds(name, [*value; 2]);
             }
         }
-        match fit_history_until(&law, &measurements.tests, &start, &options, stop) {
-            Ok(fit) if best.as_ref().is_none_or(|best| fit.weighted_squares < best.weighted_squares) => best = Some(fit),
+        let mut sketch = options.clone().with_control(rough);
+        sketch.patience = patience;
+        match fit_history_until(&law, &measurements.tests, &start, &sketch, stop) {
+            Ok(fit) if best.as_ref().is_none_or(|(best, _)| fit.weighted_squares < best.weighted_squares) => {
+                best = Some((fit, options));
+            }
             Ok(_) => {}
             Err(error) => refused = refused.or(Some(error)),
         }
@@ -179,5 +189,9 @@ fn fitted(
             break;
         }
     }
-    best.ok_or_else(|| refused.unwrap_or(FitError::NoTests))
+    let (best, options) = best.ok_or_else(|| refused.unwrap_or(FitError::NoTests))?;
+    if stop() {
+        return Ok(best);
+    }
+    fit_history_until(&law, &measurements.tests, &best.values(), &options, stop)
 }

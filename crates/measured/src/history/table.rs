@@ -118,7 +118,7 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
     for row in &sheet.rows {
         let loading = match (mode, shear) {
             (None, Some(_)) => Ok(Loading::SimpleShear),
-            _ => words::loading(&sheet, row, mode, None),
+            _ => words::loading(row, mode),
         };
         let read = loading.and_then(|loading| Ok((loading, numbers(&sheet, row, (time, to_seconds), along, stress)?)));
         let (loading, [t, x, p]) = match read {

@@ -72,33 +72,24 @@ pub(crate) fn stress_unit(sheet: &Sheet, at: usize) -> Result<Option<String>, Ta
     Ok(unit)
 }
 
-/// The loading that mode and angle of a row name.
-pub(crate) fn loading(sheet: &Sheet, row: &Row, modes: Option<usize>, angles: Option<usize>) -> Result<Loading, TableMistake> {
-    let field = |at: Option<usize>| at.and_then(|at| row.fields.get(at)).map(str::trim).filter(|text| !text.is_empty());
-    let mode = match field(modes) {
-        None => Loading::Uniaxial,
-        Some(label) => match label.to_lowercase().as_str() {
-            "uniaxial" | "ut" | "tension" | "compression" | "uc" => Loading::Uniaxial,
-            "transverse" => Loading::Transverse,
-            "equibiaxial" | "biaxial" | "et" | "eb" | "bt" => Loading::Equibiaxial,
-            "planar" | "pure shear" | "pure_shear" | "ps" | "pt" => Loading::Planar,
-            "simple shear" | "simple_shear" | "ss" => Loading::SimpleShear,
-            "volumetric" | "hydrostatic" | "vt" => Loading::Volumetric,
-            _ => {
-                let valid = "uniaxial, transverse, equibiaxial, planar, simple shear, volumetric";
-                return Err(TableMistake::new(row.line, format!("the mode is `{label}`"), valid));
-            }
-        },
-    };
-    let Some(text) = field(angles) else { return Ok(mode) };
-    let degrees = sheet.number(text).map(f64::abs);
-    match (mode, degrees) {
-        (Loading::Uniaxial, Some(angle)) if angle <= 0.0 => Ok(Loading::Uniaxial),
-        (Loading::Uniaxial, Some(angle)) if (angle - 90.0).abs() <= 0.0 => Ok(Loading::Transverse),
+/// A field of a row that is not blank.
+pub(crate) fn field(row: &Row, at: Option<usize>) -> Option<&str> {
+    at.and_then(|at| row.fields.get(at)).map(str::trim).filter(|text| !text.is_empty())
+}
+
+/// The loading that the mode of a row names.
+pub(crate) fn loading(row: &Row, modes: Option<usize>) -> Result<Loading, TableMistake> {
+    let Some(label) = field(row, modes) else { return Ok(Loading::Uniaxial) };
+    match label.to_lowercase().as_str() {
+        "uniaxial" | "ut" | "tension" | "compression" | "uc" => Ok(Loading::Uniaxial),
+        "transverse" => Ok(Loading::Transverse),
+        "equibiaxial" | "biaxial" | "et" | "eb" | "bt" => Ok(Loading::Equibiaxial),
+        "planar" | "pure shear" | "pure_shear" | "ps" | "pt" => Ok(Loading::Planar),
+        "simple shear" | "simple_shear" | "ss" => Ok(Loading::SimpleShear),
+        "volumetric" | "hydrostatic" | "vt" => Ok(Loading::Volumetric),
         _ => {
-            let what = format!("a {} specimen at the angle `{text}`", mode.name());
-            let valid = "a uniaxial specimen at 0 or 90 degrees from axis 1; between them it shears";
-            Err(TableMistake::new(row.line, what, valid))
+            let valid = "uniaxial, transverse, equibiaxial, planar, simple shear, volumetric";
+            Err(TableMistake::new(row.line, format!("the mode is `{label}`"), valid))
         }
     }
 }

@@ -4,10 +4,12 @@ use std::path::{Path, PathBuf};
 
 use piola_fit::sides::{Loading, SidesTest};
 
-use super::columns::{ANGLE, Column, MODE, SIDE, SIDE_STRAIN, STRAIN, STRESS, STRETCH, find, is_known, loading, stress_unit};
+use super::columns::{
+    ANGLE, Column, MODE, SIDE, SIDE_STRAIN, STRAIN, STRESS, STRETCH, field, find, is_known, loading, stress_unit,
+};
 use crate::MeasuredError;
 use crate::fitting::{TableMistake, TableReport};
-use crate::sheet::{Sheet, read};
+use crate::sheet::{Row, Sheet, read};
 
 /// Tests of one material.
 ///
@@ -18,7 +20,9 @@ use crate::sheet::{Sheet, read};
 /// let measurements = SidesMeasurements::parse("skin.csv", text)?;
 /// assert_eq!((measurements.tests.len(), measurements.unit.as_deref()), (2, Some("kPa")));
 /// assert_eq!(measurements.tests[0].rows()[0], (1.1, 5.0, Some(0.96)));
-/// let wrong = SidesMeasurements::parse("skin.csv", "angle,stretch,stress\n45,1.1,2\n");
+/// let strip = SidesMeasurements::parse("skin.csv", "angle,stretch,stress\n45,1.1,2\n")?;
+/// assert_eq!(strip.tests[0].angle(), core::f64::consts::FRAC_PI_4);
+/// let wrong = SidesMeasurements::parse("skin.csv", "angle,stretch,stress\n120,1.1,2\n");
 /// assert!(wrong.unwrap_err().to_string().starts_with("skin.csv:2: "));
 /// # Ok::<(), piola_measured::MeasuredError>(())
 /// ```
@@ -87,10 +91,10 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
     }
     let unit = stress_unit(&sheet, stress).map_err(one)?;
     let mut mistakes = Vec::new();
-    let mut groups: Vec<(Loading, u64, Vec<Point>)> = Vec::new();
+    let mut groups: Vec<(Loading, f64, u64, Vec<Point>)> = Vec::new();
     for row in &sheet.rows {
-        let loading = match loading(&sheet, row, modes, angles) {
-            Ok(loading) => loading,
+        let (loading, degrees) = match specimen(&sheet, row, modes, angles) {
+            Ok(specimen) => specimen,
             Err(mistake) => {
                 mistakes.push(mistake);
                 continue;
@@ -117,17 +121,22 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
                 mistakes.push(TableMistake::new(row.line, format!("the {name} is {value}"), hint));
             }
         }
-        match groups.iter_mut().find(|(other, _, _)| *other == loading) {
-            Some((_, _, points)) => points.push((x, p, lateral)),
-            None => groups.push((loading, row.line, vec![(x, p, lateral)])),
+        let is_same = |other: Loading, angle: f64| other == loading && angle.total_cmp(&degrees).is_eq();
+        match groups.iter_mut().find(|(other, angle, ..)| is_same(*other, *angle)) {
+            Some((.., points)) => points.push((x, p, lateral)),
+            None => groups.push((loading, degrees, row.line, vec![(x, p, lateral)])),
         }
     }
     if !mistakes.is_empty() {
         return Err(mistakes);
     }
     let mut found = Vec::new();
-    for (loading, line, points) in groups {
-        let test = SidesTest::new(loading.name(), loading, &points);
+    for (loading, degrees, line, points) in groups {
+        let test = if 0.0 < degrees {
+            SidesTest::strip(format!("strip at {degrees}°"), degrees.to_radians(), &points)
+        } else {
+            SidesTest::new(loading.name(), loading, &points)
+        };
         found.push(test.map_err(|error| vec![TableMistake::new(line, error.to_string(), "a test of a material")])?);
     }
     if found.is_empty() {
@@ -148,4 +157,23 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
         notes.push(format!("columns not used: {}", others.join(", ")));
     }
     Ok((unit, found, notes))
+}
+
+/// The loading of a row, and the angle of a strip between the axes, degrees.
+fn specimen(
+    sheet: &Sheet,
+    row: &Row,
+    modes: Option<usize>,
+    angles: Option<usize>,
+) -> Result<(Loading, f64), TableMistake> {
+    let mode = loading(row, modes)?;
+    let Some(text) = field(row, angles) else { return Ok((mode, 0.0)) };
+    match (mode, sheet.number(text).map(f64::abs)) {
+        (Loading::Uniaxial, Some(angle)) if (angle - 90.0).abs() <= 0.0 => Ok((Loading::Transverse, 0.0)),
+        (Loading::Uniaxial, Some(angle)) if angle < 90.0 => Ok((Loading::Uniaxial, angle)),
+        _ => {
+            let what = format!("a {} specimen at the angle `{text}`", mode.name());
+            Err(TableMistake::new(row.line, what, "a uniaxial specimen at 0 to 90 degrees from axis 1"))
+        }
+    }
 }

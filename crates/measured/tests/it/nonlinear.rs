@@ -101,7 +101,7 @@ fn modes_are_fitted_or_taken_from_a_spectrum_and_the_results_are_read_again() {
     assert!(written.failures.is_empty() && written.files.len() == 4, "{written:?}");
     let summary: serde_json::Value = serde_json::from_str(&comparison.summary(&table)).expect("JSON");
     let law: AnyFluid = serde_json::from_value(summary["fluids"][0]["law"].clone()).expect("a fluid");
-    assert!((law.shear_stress(2.0) / fluid.shear_stress(2.0) - 1.0).abs() < 1e-8);
+    assert!((law.shear_stress(2.0_f64) / fluid.shear_stress(2.0_f64) - 1.0).abs() < 1e-8);
     let shown = comparison.table(&table);
     assert!(shown.contains("polymer_viscosity2") && shown.contains("steady shear, N2"), "{shown}");
     // The spectrum of `piola spectrum`.

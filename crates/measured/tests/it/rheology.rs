@@ -428,3 +428,32 @@ fn bands_of_the_other_made_tables_hold_the_fluid_too() -> Result<(), MeasuredErr
     }
     Ok(())
 }
+
+/// The least sums of squares of SciPy's search from forty random starts: `benches/peers/flow_fits.py`.
+const OPTIMA: [(&str, &str, f64); 14] = [
+    ("emulsion-0.70.csv", "power-law", 3.452054318356),
+    ("emulsion-0.70.csv", "bingham", 2.028345914202),
+    ("emulsion-0.70.csv", "casson", 0.3068886513878),
+    ("emulsion-0.70.csv", "herschel-bulkley", 0.02685855483492),
+    ("emulsion-0.70.csv", "sisko", 0.3820652467592),
+    ("emulsion-0.70.csv", "cross", 0.3820652467592),
+    ("emulsion-0.70.csv", "carreau-yasuda", 0.29863176092),
+    ("ethylcellulose-8.csv", "power-law", 1.444193403336),
+    ("ethylcellulose-8.csv", "bingham", 8.484115368005),
+    ("ethylcellulose-8.csv", "casson", 5.969596379643),
+    ("ethylcellulose-8.csv", "herschel-bulkley", 1.444193403336),
+    ("ethylcellulose-8.csv", "sisko", 1.444193403336),
+    ("ethylcellulose-8.csv", "cross", 0.002181526138972),
+    ("ethylcellulose-8.csv", "carreau-yasuda", 0.002000961507786),
+];
+
+#[test]
+fn fluids_of_measured_flow_curves_reach_the_optimum_of_an_independent_search() {
+    for (file, name, squares) in OPTIMA {
+        let fluids = vec![name.parse().unwrap_or_else(|error| panic!("{error}"))];
+        let found = compare(&shipped(file, FlowKind::Curve), &Request::of(fluids)).unwrap_or_else(|e| panic!("{e}"));
+        let (_, fit) = found.fits().next().unwrap_or_else(|| panic!("{name}"));
+        let tolerance = Tol::stated(1e-9, "where the searches stop: S is flat there");
+        assert_close(&format!("{file}, {name}"), &[fit.squares], &[squares], tolerance);
+    }
+}
