@@ -45,8 +45,7 @@ pub(crate) fn fit(arguments: &NonlinearArguments) -> Exit {
     let interrupt = Interrupt::listen();
     let prepared = NonlinearTable::load(&arguments.data).and_then(|table| {
         let mut request = NonlinearRequest::default();
-        request.fluids =
-            arguments.fluids.iter().map(|name| Ok(name.parse()?)).collect::<Result<_, MeasuredError>>()?;
+        request.fluids = arguments.fluids.iter().map(|name| Ok(name.parse()?)).collect::<Result<_, MeasuredError>>()?;
         request.modes = match &arguments.spectrum {
             Some(path) => modes_of_spectrum(path)?,
             None => RelaxationModes::Fitted(arguments.modes),

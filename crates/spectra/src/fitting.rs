@@ -318,7 +318,8 @@ fn first_order(
             functions(&moved).filter(|found| found.len() == values.len())
         };
         let (after, before) = (at(STEP)?, at(-STEP)?);
-        slopes.push(after.iter().zip(before).map(|(after, before)| (after - before) / (2.0 * STEP)).collect::<Vec<_>>());
+        slopes
+            .push(after.iter().zip(before).map(|(after, before)| (after - before) / (2.0 * STEP)).collect::<Vec<_>>());
     }
     let variance = |function: usize| {
         let mut sum = 0.0;

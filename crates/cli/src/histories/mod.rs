@@ -18,9 +18,8 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
     let interrupt = Interrupt::listen();
     let prepared = request(arguments).and_then(|request| {
         let measurements = HistoryMeasurements::load(&arguments.data)?;
-        let found = watched(&measurements.name(), &interrupt, |watch| {
-            compare_histories_until(&measurements, &request, watch)
-        })?;
+        let found =
+            watched(&measurements.name(), &interrupt, |watch| compare_histories_until(&measurements, &request, watch))?;
         if let (None, Some((_, refused))) = (found.fits().next(), found.refusals().next()) {
             return Err(refused.clone().into());
         }

@@ -160,7 +160,9 @@ impl AnyHistoryModel {
                 let mu = tests.iter().filter_map(steep).fold(mu, f64::max);
                 times
                     .iter()
-                    .map(|time| vec![mu, 1.5 * mu, 0.7 * largest, 0.1 * largest, 0.2 * largest, 5.0, 0.1 * largest * time])
+                    .map(|time| {
+                        vec![mu, 1.5 * mu, 0.7 * largest, 0.1 * largest, 0.2 * largest, 5.0, 0.1 * largest * time]
+                    })
                     .collect()
             }
         }

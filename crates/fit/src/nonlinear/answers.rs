@@ -57,7 +57,8 @@ pub(super) fn linear(modes: &[OldroydB], data: &NonlinearData, out: &mut Vec<f64
                     of_shear(response, [stresses.shear, stresses.first, stresses.second])
                 }
                 NonlinearFlow::ExtensionStartUp { extension, rate } => {
-                    let gradient = VelocityGradient::from_rows(extending(extension, rate)).map_err(FluidsError::from)?;
+                    let gradient =
+                        VelocityGradient::from_rows(extending(extension, rate)).map_err(FluidsError::from)?;
                     let [t11, t22, t33, ..] = mode.start_up_stress(&gradient, *drive)?.components;
                     extension.difference([t11, t22, t33])
                 }

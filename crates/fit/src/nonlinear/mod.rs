@@ -212,9 +212,8 @@ pub fn fit_nonlinear_until(
         return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
     }
     options.modes.check()?;
-    let is_second = |set: &NonlinearData| {
-        set.flow().shear_response() == Some(ShearResponse::SecondNormalStressDifference)
-    };
+    let is_second =
+        |set: &NonlinearData| set.flow().shear_response() == Some(ShearResponse::SecondNormalStressDifference);
     if !model.has_second_normal_stress() && data.iter().any(is_second) {
         return Err(FitError::NoSecondNormalStressDifference { model: model.name().to_owned() });
     }
@@ -225,8 +224,7 @@ pub fn fit_nonlinear_until(
         return Err(FitError::TooFewPoints { model: model.name().to_owned(), points: rows, parameters: n });
     }
     let bounds = model.bounds(&options.modes);
-    let ranges: Vec<Range> =
-        bounds.iter().map(|bounds| Range { bounds: *bounds, least: f64::MIN_POSITIVE }).collect();
+    let ranges: Vec<Range> = bounds.iter().map(|bounds| Range { bounds: *bounds, least: f64::MIN_POSITIVE }).collect();
     let evaluations = Cell::new(0);
     let scales = data.iter().filter_map(NonlinearData::scales);
     let [viscosity, rate] = scales.fold([0.0; 2], |[a, b]: [f64; 2], [c, d]| [a.max(c), b.max(d)]);

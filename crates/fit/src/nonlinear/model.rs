@@ -233,9 +233,7 @@ impl NonlinearModel {
             Self::Giesekus => Made::Giesekus(modes!(Giesekus, shared[0])),
             Self::LinearPtt => Made::LinearPtt(modes!(LinearPhanThienTanner, shared[0])),
             Self::ExponentialPtt => Made::ExponentialPtt(modes!(ExponentialPhanThienTanner, shared[0])),
-            Self::KbkzRational => {
-                Made::KbkzRational(Kbkz::new(memory, RationalDamping::new(shared[0], shared[1])?)?)
-            }
+            Self::KbkzRational => Made::KbkzRational(Kbkz::new(memory, RationalDamping::new(shared[0], shared[1])?)?),
             Self::KbkzExponential => {
                 Made::KbkzExponential(Kbkz::new(memory, ExponentialDamping::new(shared[0], shared[1])?)?)
             }

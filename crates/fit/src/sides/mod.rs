@@ -28,6 +28,8 @@ use crate::statistics::{Autocorrelation, Criteria};
 use crate::{FitError, Outcome};
 use test::{Output, Point};
 
+use model::oblique_energy;
+
 pub use model::SidesModel;
 pub use test::{Loading, SidesTest};
 
@@ -264,7 +266,7 @@ impl Problem {
                     }
                     (Sides::Strip { angle, values, inverse }, _) => {
                         let there = [at[0], Gradient::lit(values[0]), Gradient::lit(values[1])];
-                        let slopes = [1, 2].map(|k| self.oblique_slope(*angle, there, k, &lifted));
+                        let slopes = [1, 2].map(|k| Self::oblique_slope(*angle, there, k, &lifted));
                         for (k, value) in values.iter().enumerate() {
                             let [first, second] = inverse[k].map(Gradient::lit);
                             let mut moved = -(first * slopes[0] + second * slopes[1]);
@@ -277,7 +279,7 @@ impl Problem {
                 for (output, measured, scale) in &point.outputs {
                     let answer = match (output, point.oblique) {
                         (Output::Stress { factor, .. }, Some(angle)) => {
-                            self.oblique_slope(angle, at, 0, &lifted) * Gradient::lit(*factor)
+                            Self::oblique_slope(angle, at, 0, &lifted) * Gradient::lit(*factor)
                         }
                         (Output::Stress { direction, factor }, None) => {
                             self.slope(at, *direction, &lifted) * Gradient::lit(*factor)
@@ -306,21 +308,21 @@ impl Problem {
     }
 
     /// ∂W of a strip by one of its coordinates.
-    fn oblique_slope<T: Real>(&self, angle: f64, at: [T; 3], k: usize, parameters: &[Dual<T>]) -> T {
+    fn oblique_slope<T: Real>(angle: f64, at: [T; 3], k: usize, parameters: &[Dual<T>]) -> T {
         let varied = [0, 1, 2].map(|a| Dual::new(at[a], if a == k { T::one() } else { T::zero() }));
-        self.model.oblique_energy(angle, varied, parameters).tangent
+        oblique_energy(angle, varied, parameters).tangent
     }
 
     /// The free sides of a point.
     fn sides(&self, point: &Point, parameters: &[Dual<Dual<f64>>]) -> Option<Sides> {
         match point.oblique {
-            Some(angle) => self.strip(angle, point, parameters),
+            Some(angle) => Self::strip(angle, point, parameters),
             None => self.side(point, parameters).map(|[side, stiffness]| Sides::One { side, stiffness }),
         }
     }
 
     /// Width and shear of a strip, by Newton's method from the width of a body without fibres.
-    fn strip(&self, angle: f64, point: &Point, parameters: &[Dual<Dual<f64>>]) -> Option<Sides> {
+    fn strip(angle: f64, point: &Point, parameters: &[Dual<Dual<f64>>]) -> Option<Sides> {
         /// The longest step.
         const LONGEST: f64 = 0.3;
         let mut values = [point.start, 0.0];
@@ -329,7 +331,7 @@ impl Problem {
             let second = |i: usize, j: usize| {
                 let at = [point.base[0], values[0], values[1]];
                 let varied = [0, 1, 2].map(|a| Dual::new(Dual::new(at[a], seed(a, j)), Dual::lit(seed(a, i))));
-                self.model.oblique_energy(angle, varied, parameters)
+                oblique_energy(angle, varied, parameters)
             };
             let [aa, ab, bb] = [second(1, 1), second(1, 2), second(2, 2)];
             let (slopes, [a, mixed, b]) =

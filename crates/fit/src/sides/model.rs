@@ -80,19 +80,6 @@ impl SidesModel {
         }
     }
 
-    /// W of a strip that was cut at an angle from axis 1 and is pulled along itself, at the logarithms of its stretch and of its width,
-    /// and at its shear s: F = ((λ, s), (0, m)) in the plane, 1/(λ m) across it. Of a foam, which has no directions, there is no such W.
-    pub(super) fn oblique_energy<T: Real>(self, from_axis: f64, [x, width, shear]: [T; 3], parameters: &[T]) -> T {
-        let two = T::lit(2.0);
-        let (a, b) = ((two * x).exp_m1(), (two * width).exp_m1() + shear * shear);
-        let (mixed, across) = (x.exp() * shear, (-two * (x + width)).exp_m1());
-        let family = |sign: f64| {
-            let (sine, cosine) = (T::lit(sign) * parameters[3] - T::lit(from_axis)).sin_cos();
-            cosine * cosine * a + two * cosine * sine * mixed + sine * sine * b
-        };
-        fibrous(a + b + across, [family(1.0), family(-1.0)], parameters)
-    }
-
     /// Where a search starts, for stresses of this size.
     pub(super) fn starts(self, stress: f64) -> Vec<Vec<f64>> {
         /// Starts, at most.
@@ -159,6 +146,19 @@ impl SidesModel {
             }
         })
     }
+}
+
+/// W of a strip that was cut at an angle from axis 1 and is pulled along itself, at the logarithms of its stretch and of its width,
+/// and at its shear s: F = ((λ, s), (0, m)) in the plane, 1/(λ m) across it. It is that of Holzapfel, Gasser and Ogden's law; a foam has no directions.
+pub(super) fn oblique_energy<T: Real>(from_axis: f64, [x, width, shear]: [T; 3], parameters: &[T]) -> T {
+    let two = T::lit(2.0);
+    let (a, b) = ((two * x).exp_m1(), (two * width).exp_m1() + shear * shear);
+    let (mixed, across) = (x.exp() * shear, (-two * (x + width)).exp_m1());
+    let family = |sign: f64| {
+        let (sine, cosine) = (T::lit(sign) * parameters[3] - T::lit(from_axis)).sin_cos();
+        cosine * cosine * a + two * cosine * sine * mixed + sine * sine * b
+    };
+    fibrous(a + b + across, [family(1.0), family(-1.0)], parameters)
 }
 
 /// W of Holzapfel, Gasser and Ogden's law at I₁ − 3 and at I₄ − 1 of both families.

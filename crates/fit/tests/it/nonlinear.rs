@@ -6,8 +6,8 @@ use piola_fit::nonlinear::{
     fit_nonlinear,
 };
 use piola_fluids::{
-    AnyFluid, DifferentialFluid, Extension as Kind, Giesekus, Mode, Modes, OldroydB, Parameters, Relaxation, ViscometricFluid,
-    follow,
+    AnyFluid, DifferentialFluid, Extension as Kind, Giesekus, Modes, OldroydB, Parameters, Relaxation,
+    ViscometricFluid, follow,
 };
 use piola_testkit::{Tol, assert_each_close};
 

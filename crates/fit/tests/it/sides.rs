@@ -157,7 +157,7 @@ fn fitted_fibres_equal_those_that_made_the_tests() -> Fallible {
 /// Strips that were cut between the axes: width and shear by coordinate search, with the law itself and a pressure that keeps the volume.
 #[test]
 fn strips_at_an_angle_tell_the_fibres_and_equal_tests_along_the_axes_at_their_ends() -> Fallible {
-    let expected = [3.0, 5.0, 4.0, 0.6, 0.1];
+    let expected = [3.0_f64, 5.0, 4.0, 0.6, 0.1];
     let [mu, k1, k2, angle, dispersion] = expected;
     let (sine, cosine) = angle.sin_cos();
     let fibres = [Fibre::new([cosine, sine, 0.0])?, Fibre::new([cosine, -sine, 0.0])?];

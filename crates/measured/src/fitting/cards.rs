@@ -233,7 +233,9 @@ fn calculix(name: &str, law: &Law, bulk: Bulk) -> Result<Option<String>, Measure
     let inverse = 2.0 / bulk.modulus;
     let valid = match (terms <= MOST_OF_CALCULIX, LEAST <= inverse) {
         (false, _) => "laws of at most three terms",
-        (_, false) => "a bulk modulus of at most 2e10 in the unit of the stresses: CalculiX replaces D = 2/K below 1e-10",
+        (_, false) => {
+            "a bulk modulus of at most 2e10 in the unit of the stresses: CalculiX replaces D = 2/K below 1e-10"
+        }
         _ => return Ok(abaqus(name, law, inverse, NOTHING, &short_lines)),
     };
     Err(MeasuredError::Argument { argument: format!("a card of CalculiX for {name}"), valid })

@@ -63,11 +63,8 @@ impl HistoryComparison {
                 let _ = writeln!(text, "  {}: RMS residual {:.2} %", test.test, 100.0 * test.relative_rms);
             }
             for found in &fit.parameters {
-                let line = parameter_in_words(
-                    &found.name,
-                    found.value,
-                    (found.standard_error, found.interval, found.state),
-                );
+                let line =
+                    parameter_in_words(&found.name, found.value, (found.standard_error, found.interval, found.state));
                 let _ = writeln!(text, "{line}{}", unit(&found.name, found.is_stress, measurements.unit.as_deref()));
             }
             if let Some(found) = fit.autocorrelation.filter(|found| 1.0 < found.widening) {

@@ -108,8 +108,9 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
         None => Column::of(&sheet, words::STRETCH, words::STRAIN),
     };
     let along = along.map_err(one)?;
-    let along = along
-        .ok_or_else(|| missing("stretch or a strain", "`stretch`, `strain [%]`, or in simple shear `amount of shear`"))?;
+    let along = along.ok_or_else(|| {
+        missing("stretch or a strain", "`stretch`, `strain [%]`, or in simple shear `amount of shear`")
+    })?;
     let stress = words::find(&sheet, words::STRESS).ok_or_else(|| missing("stress", "a column `stress [MPa]`"))?;
     let unit = words::stress_unit(&sheet, stress).map_err(one)?;
     let (mode, specimen) = (words::find(&sheet, words::MODE), words::find(&sheet, SPECIMEN));
@@ -137,7 +138,8 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
     }
     let mut tests = Vec::new();
     for Group { loading, specimen, rows } in groups {
-        let name = if specimen.is_empty() { loading.name().to_owned() } else { format!("{} {specimen}", loading.name()) };
+        let name =
+            if specimen.is_empty() { loading.name().to_owned() } else { format!("{} {specimen}", loading.name()) };
         let numbers: Vec<[f64; 3]> = rows.iter().map(|(_, numbers)| *numbers).collect();
         // The first row that is refused is the last of the shortest table that is.
         let is_refused = |count: &usize| HistoryTest::new(&*name, loading, &numbers[..*count]).is_err();

@@ -215,7 +215,9 @@ fn stated(sheet: &Sheet, names: &[&str]) -> Result<Option<f64>, TableMistake> {
 /// The kind of extension in a comment, as `# extension: planar`.
 fn extension(sheet: &Sheet, notes: &mut Vec<String>) -> Result<Extension, TableMistake> {
     let Some(setting) = sheet.settings.iter().find(|setting| setting.key == "extension") else {
-        notes.push("the extension is read as uniaxial; a comment `# extension: planar` or `biaxial` says another".into());
+        notes.push(
+            "the extension is read as uniaxial; a comment `# extension: planar` or `biaxial` says another".into(),
+        );
         return Ok(Extension::Uniaxial);
     };
     match setting.value.to_lowercase().as_str() {
@@ -262,11 +264,7 @@ pub(super) fn columns(sheet: &Sheet, notes: &mut Vec<String>) -> Result<Columns,
     }
     let mut responses = Vec::new();
     for quantity in &QUANTITIES {
-        let shear = if extension.is_none() {
-            quantity.in_shear
-        } else {
-            quantity.in_extension.then_some(ShearStress)
-        };
+        let shear = if extension.is_none() { quantity.in_shear } else { quantity.in_extension.then_some(ShearStress) };
         if let (Some(at), Some(shear)) = (find(sheet, quantity.names)?, shear) {
             let column = column(sheet, at, quantity.dimension, quantity.si, notes)?;
             responses.push(Response { column, power: quantity.power, shear });

@@ -38,7 +38,9 @@ pub(super) fn words(flow: NonlinearFlow) -> String {
 /// The rate of a start-up, 1/s.
 const fn rate(flow: NonlinearFlow) -> Option<f64> {
     match flow {
-        NonlinearFlow::ShearStartUp { shear_rate: rate, .. } | NonlinearFlow::ExtensionStartUp { rate, .. } => Some(rate),
+        NonlinearFlow::ShearStartUp { shear_rate: rate, .. } | NonlinearFlow::ExtensionStartUp { rate, .. } => {
+            Some(rate)
+        }
         _ => None,
     }
 }
@@ -144,11 +146,8 @@ impl NonlinearComparison {
                 let _ = writeln!(text, "  {} relaxation modes are given", spectrum.len());
             }
             for found in &fit.parameters {
-                let line = parameter_in_words(
-                    &found.name,
-                    found.value,
-                    (found.standard_error, found.interval, found.state),
-                );
+                let line =
+                    parameter_in_words(&found.name, found.value, (found.standard_error, found.interval, found.state));
                 let _ = writeln!(text, "{line}");
             }
         }

@@ -102,8 +102,10 @@ fn add(
     Ok(())
 }
 
+/// A drive and a response, with the flow that they are of.
+type FlowRow = (NonlinearFlow, [f64; 2]);
 /// Rows of a table by their flows, and notes.
-type Rows = (Vec<(NonlinearFlow, [f64; 2])>, Vec<String>);
+type Rows = (Vec<FlowRow>, Vec<String>);
 
 fn rows(text: &str) -> Result<Rows, Vec<TableMistake>> {
     let sheet = Sheet::parse(text, &is_known)?;
@@ -130,11 +132,7 @@ fn rows(text: &str) -> Result<Rows, Vec<TableMistake>> {
 }
 
 /// The responses of a row with their flows; none of the time zero.
-fn read_row(
-    sheet: &Sheet,
-    row: &Row,
-    columns: &Columns,
-) -> Result<Option<Vec<(NonlinearFlow, [f64; 2])>>, TableMistake> {
+fn read_row(sheet: &Sheet, row: &Row, columns: &Columns) -> Result<Option<Vec<FlowRow>>, TableMistake> {
     if let Some(mistake) = sheet.incomplete(row) {
         return Err(mistake);
     }

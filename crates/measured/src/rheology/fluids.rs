@@ -159,7 +159,7 @@ type Embedding = (FluidModel, FluidModel, fn(&[f64]) -> Vec<f64>);
 const NOTHING: f64 = 1e-12;
 
 /// Fluids with fluids that they contain.
-const CONTAINED: [Embedding; 7] = [
+const CONTAINED: [Embedding; 9] = [
     (FluidModel::PowerLaw, FluidModel::Newtonian, |p| vec![p[0], 1.0]),
     (FluidModel::Bingham, FluidModel::Newtonian, |p| vec![NOTHING * p[0], p[0]]),
     (FluidModel::Casson, FluidModel::Newtonian, |p| vec![NOTHING * p[0], p[0]]),
@@ -167,7 +167,22 @@ const CONTAINED: [Embedding; 7] = [
     (FluidModel::HerschelBulkley, FluidModel::Bingham, |p| vec![p[0], p[1], 1.0]),
     (FluidModel::Sisko, FluidModel::PowerLaw, |p| vec![NOTHING * p[0], p[0], p[1]]),
     (FluidModel::Sisko, FluidModel::Newtonian, |p| vec![p[0], NOTHING * p[0], 0.5]),
+    // η₀ beyond all rows: η₀/(λ k)^(1 − n) = K k^(n − 1).
+    (FluidModel::Cross, FluidModel::Sisko, |p| {
+        let [zero, time] = beyond(p);
+        vec![zero, p[0], time, 1.0 - p[2]]
+    }),
+    (FluidModel::CarreauYasuda, FluidModel::Sisko, |p| {
+        let [zero, time] = beyond(p);
+        vec![zero, p[0], time, p[2], 1.0]
+    }),
 ];
+
+/// A viscosity at rest, and a time, of a fluid that thins as Sisko's over all rows.
+fn beyond(sisko: &[f64]) -> [f64; 2] {
+    const FAR: f64 = 1e6;
+    [FAR * sisko[1], FAR.powf((1.0 - sisko[2]).recip())]
+}
 
 /// Fluids to compare, and how.
 #[derive(Debug, Clone, PartialEq)]

@@ -36,7 +36,11 @@ pub(crate) struct Column {
 
 impl Column {
     /// The column of a stretch, or of a strain; its unit must be that of a pure number.
-    pub(crate) fn of(sheet: &Sheet, stretch: &'static [&str], strain: &'static [&str]) -> Result<Option<Self>, TableMistake> {
+    pub(crate) fn of(
+        sheet: &Sheet,
+        stretch: &'static [&str],
+        strain: &'static [&str],
+    ) -> Result<Option<Self>, TableMistake> {
         let found = find(sheet, stretch).map(|at| (at, false)).or_else(|| find(sheet, strain).map(|at| (at, true)));
         let Some((at, is_strain)) = found else { return Ok(None) };
         let unit = match sheet.headings[at].unit.as_deref().map(|text| (text, spelled(text))) {

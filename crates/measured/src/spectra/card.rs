@@ -57,7 +57,10 @@ pub fn prony(program: Program, spectrum: &RelaxationSpectrum) -> Result<String, 
             }
         }
         Program::FeBio if terms.len() <= MOST_OF_FEBIO => {
-            let _ = writeln!(text, "<!-- instantaneous shear modulus {glassy:?} Pa; put the elastic law inside, as <elastic type=\"Ogden\"> -->");
+            let _ = writeln!(
+                text,
+                "<!-- instantaneous shear modulus {glassy:?} Pa; put the elastic law inside, as <elastic type=\"Ogden\"> -->"
+            );
             text.push_str("<material id=\"1\" type=\"uncoupled viscoelastic\">\n");
             let rest = 1.0 - terms.iter().map(|[share, _]| share).sum::<f64>();
             let _ = writeln!(text, "  <g0>{:?}</g0>", rest.max(0.0));

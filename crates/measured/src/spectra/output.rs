@@ -335,7 +335,8 @@ fn told(found: &Superposition) -> String {
     let mut text = format!("shifted to {:.1} °C\n", found.reference_temperature - ICE);
     for (k, [temperature, shift]) in found.shifts.iter().enumerate() {
         let across = found.vertical.as_ref().map_or_else(String::new, |b| {
-            let within = found.intervals[k][1].map_or_else(String::new, |[low, high]| format!(" [{low:.4}, {high:.4}]"));
+            let within =
+                found.intervals[k][1].map_or_else(String::new, |[low, high]| format!(" [{low:.4}, {high:.4}]"));
             format!("   ln bₜ = {:.4}{within}", b[k])
         });
         let _ = writeln!(text, "{:>10.1} °C   ln aₜ = {shift:.4}{across}", temperature - ICE);

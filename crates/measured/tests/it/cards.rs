@@ -96,7 +96,7 @@ fn cards_of_abaqus_have_the_energy_of_the_fit() {
     compare_energy("ogden:3", "Abaqus", |x| ogden(&pairs(&found, 3), |mu, alpha| 2.0 * mu / (alpha * alpha), x));
 }
 
-/// CalculiX reads the first twenty characters of at most three terms, and replaces a D below 1e-10 by (0.1/μ)ⁱ.
+/// `CalculiX` reads the first twenty characters of at most three terms, and replaces a D below 1e-10 by (0.1/μ)ⁱ.
 #[test]
 fn cards_of_calculix_have_the_energy_of_the_fit_as_that_program_reads_them() {
     let read = |name: &str, word: &str| -> Vec<f64> {
@@ -112,9 +112,7 @@ fn cards_of_calculix_have_the_energy_of_the_fit_as_that_program_reads_them() {
     // U = Σ (J − 1)²ⁱ/Dᵢ is that of the bulk modulus alone.
     let volumetric = &found[6..];
     assert!(volumetric.len() == 3 && volumetric.iter().all(|d| 1e-10 <= *d), "{volumetric:?}");
-    let energy = |change: f64| -> f64 {
-        volumetric.iter().zip(1..).map(|(d, power)| change.powi(2 * power) / d).sum()
-    };
+    let energy = |change: f64| -> f64 { volumetric.iter().zip(1..).map(|(d, power)| change.powi(2 * power) / d).sum() };
     assert_close("U", &[energy(0.1)], &[0.5 * BULK * 0.01], Tol::stated(1e-12, "thirteen digits are written"));
     assert!(of(Program::CalculiX, "ogden:4").is_none() && of(Program::Abaqus, "ogden:4").is_some());
     let (law, fit) = fitted("neo-hookean");

@@ -52,7 +52,7 @@ fn tables_that_cannot_be_read_are_refused_with_their_line() {
         ("shear rate [1/s],stress [Pa],viscosity [Pa s]\n1,2,3\n", "f.csv:1: `stress [Pa]` and `viscosity [Pa s]`"),
         ("shear rate [1/s],stress [Pa]\n1,-2\n", "f.csv:2: `stress [Pa]` is `-2`"),
         ("shear rate [1/s],N2 [Pa]\n1,2\n", "f.csv:2: `N2 [Pa]` is `2`; valid: a finite number less than zero"),
-        ("shear rate [1/s],N1 [Pa s]\n1,2\n", "f.csv:1: `Pa s` is another unit; valid: one of Pa"),
+        ("shear rate [1/s],N1 [Pa s]\n1,2\n", "f.csv:1: `Pa s` is another unit; valid: one of mPa, Pa"),
         ("time [s],shear rate [1/s],stress [Pa]\n-1,1,2\n", "f.csv:2: `time [s]` is `-1`"),
         ("shear rate [1/s],stress [Pa]\n1,\n", "f.csv:2: a row without a response"),
         ("shear rate [1/s],stress [Pa]\n", "f.csv:1: the table has a header and no rows"),

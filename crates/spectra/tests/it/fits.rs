@@ -282,10 +282,9 @@ fn intervals_of_converted_modes_hold_the_spectrum_as_often_as_they_say() {
         let fit =
             fit_spectrum(data, SpectrumOptions { modes: Some(1), ..SpectrumOptions::default() }).expect("a spectrum");
         for (k, mode) in melt.modes().iter().enumerate() {
-            for (interval, truth) in [
-                (fit.modulus_intervals[k], mode.modulus),
-                (fit.relaxation_time_intervals[k], mode.relaxation_time),
-            ] {
+            for (interval, truth) in
+                [(fit.modulus_intervals[k], mode.modulus), (fit.relaxation_time_intervals[k], mode.relaxation_time)]
+            {
                 let Some([low, high]) = interval else { continue };
                 counted += 1;
                 inside += usize::from(low <= truth && truth <= high);

@@ -2,7 +2,8 @@
 
 use piola_fluids::{Arrhenius, TemperatureShift, WilliamsLandelFerry};
 use piola_spectra::{
-    CurveShift, IsothermalCurve, SpectraError, fit_arrhenius, fit_williams_landel_ferry, horizontal_shifts, shifts_along_both_axes,
+    CurveShift, IsothermalCurve, SpectraError, fit_arrhenius, fit_williams_landel_ferry, horizontal_shifts,
+    shifts_along_both_axes,
 };
 use piola_testkit::{Tol, assert_close, assert_each_close};
 

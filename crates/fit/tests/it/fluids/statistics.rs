@@ -118,9 +118,10 @@ fn profile_intervals_of_a_badly_determined_fluid_hold_the_truth_as_often_as_they
     let (mut held, mut widest) = ([0_u32; 3], 0.0_f64);
     let trials = 150;
     for _ in 0..trials {
-        let rates = (0..25).map(|i| (0.2 * f64::from(i) - 3.0).exp());
-        let rows: Vec<_> =
-            rates.map(|k| [k, piola_fluids::ViscometricFluid::shear_stress(&fluid, k) * (1.0 + 0.03 * normal.draw())]).collect();
+        let rates = (0..25).map(|i| (0.15 * f64::from(i) - 3.0).exp());
+        let rows: Vec<_> = rates
+            .map(|k| [k, piola_fluids::ViscometricFluid::shear_stress(&fluid, k) * (1.0 + 0.02 * normal.draw())])
+            .collect();
         let data = FlowData::flow_curve(&rows).expect("data");
         let fit = fit_flow::<Ellis, 3>(&[data], &[truth], &options).expect("a fit");
         for ((parameter, truth), held) in fit.parameters.iter().zip(truth).zip(&mut held) {
