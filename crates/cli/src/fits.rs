@@ -9,6 +9,7 @@ use piola_measured::sides::{SidesMeasurements, SidesModel, SidesOptions, card_of
 
 use crate::arguments::FitArguments;
 use crate::commands::{listing, note, print, refused};
+use crate::fit_options::refuse_all_but;
 use crate::interrupt::Interrupt;
 use crate::{Exit, comparison, flows, histories};
 
@@ -100,29 +101,6 @@ fn with_sides(arguments: &FitArguments) -> Exit {
         note(&format!("error: {failure}"));
     }
     if found.is_complete() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
-}
-
-/// Refuses options that a kind of fit does not have; it has those that are named, --law, --confidence, --out and --json.
-pub(crate) fn refuse_all_but(
-    arguments: &FitArguments,
-    used: &[&str],
-    valid: &'static str,
-) -> Result<(), MeasuredError> {
-    let options = [
-        (arguments.mode_weights.is_some(), "--mode-weights"),
-        (arguments.equal_errors, "--equal-errors"),
-        (arguments.allow_unstable, "--allow-unstable"),
-        (!arguments.only.is_empty(), "--only"),
-        (arguments.cross_validate, "--cross-validate"),
-        (arguments.to.is_some(), "--to"),
-        (arguments.profile, "--profile"),
-        (!arguments.bounds.is_empty(), "--bound"),
-        (!arguments.cards.is_empty(), "--card"),
-    ];
-    match options.iter().find(|(given, option)| *given && !used.contains(option)) {
-        Some((_, option)) => Err(MeasuredError::Argument { argument: (*option).to_owned(), valid }),
-        None => Ok(()),
-    }
 }
 
 /// The options of a fit of foam or fibres.

@@ -6,6 +6,7 @@
 mod arguments;
 mod commands;
 mod comparison;
+mod fit_options;
 mod fits;
 mod flows;
 #[cfg(feature = "history")]

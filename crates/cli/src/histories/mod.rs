@@ -9,7 +9,7 @@ use piola_measured::history::{HistoryMeasurements, HistoryRequest, compare_histo
 use crate::Exit;
 use crate::arguments::FitArguments;
 use crate::commands::refused;
-use crate::fits::refuse_all_but;
+use crate::fit_options::refuse_all_but;
 use crate::flows::{settled, show, watched};
 use crate::interrupt::Interrupt;
 
