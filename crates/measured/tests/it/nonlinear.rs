@@ -1,5 +1,7 @@
 //! Tables of viscoelastic fluids in start-up, extension and with normal stresses.
 
+use core::fmt::Write as _;
+
 use piola_fit::nonlinear::{Extension, NonlinearFlow, ShearResponse};
 use piola_fluids::{AnyFluid, DifferentialFluid as _, Giesekus, Modes, ViscometricFluid as _};
 use piola_measured::nonlinear::{
@@ -73,9 +75,9 @@ fn melt() -> (Modes<Giesekus>, NonlinearTable) {
     for k in 0..24 {
         let rate = 0.01 * 1.6_f64.powi(k);
         let (first, second) = (fluid.first_normal_stress_difference(rate), fluid.second_normal_stress_difference(rate));
-        shear += &format!("{rate:?},{:?},{first:?},{second:?}\n", fluid.shear_stress(rate));
+        let _ = writeln!(shear, "{rate:?},{:?},{first:?},{second:?}", fluid.shear_stress(rate));
         let viscosity = fluid.extensional_viscosity(Extension::Uniaxial, rate).expect("bounded");
-        extension += &format!("{rate:?},{viscosity:?}\n");
+        let _ = writeln!(extension, "{rate:?},{viscosity:?}");
     }
     let mut table = NonlinearTable::parse("shear.csv", &shear).expect("a table");
     table.flows.extend(NonlinearTable::parse("extension.csv", &extension).expect("a table").flows);

@@ -429,7 +429,7 @@ fn bands_of_the_other_made_tables_hold_the_fluid_too() -> Result<(), MeasuredErr
     Ok(())
 }
 
-/// The least sums of squares of SciPy's search from forty random starts: `benches/peers/flow_fits.py`.
+/// The least sums of squares of `SciPy`'s search from forty random starts: `benches/peers/flow_fits.py`.
 const OPTIMA: [(&str, &str, f64); 13] = [
     ("emulsion-0.70.csv", "power-law", 3.452_054_318_356),
     ("emulsion-0.70.csv", "bingham", 2.028_345_914_202),
