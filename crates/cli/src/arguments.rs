@@ -41,6 +41,9 @@ pub(crate) enum Command {
     /// Find the relaxation spectrum of a material from G′ and G″, from G(t) or from creep J(t), at one temperature or at several, with
     /// shifts, a master curve and Prony series.
     Spectrum(crate::spectra::SpectrumArguments),
+    /// Fit viscoelastic fluids to start-up of shear and extension, steady flows and normal stresses; compare them in a table, a summary
+    /// and a figure.
+    Nonlinear(crate::nonlinear::NonlinearArguments),
     /// Load a specimen of any solid along a path of stretches or loads: all components of strain and stress and a figure out.
     /// Needs the feature `specimens` of the program.
     Specimen(crate::specimens::SpecimenArguments),
@@ -124,7 +127,8 @@ pub(crate) struct FitArguments {
     /// by components.
     pub(crate) data: PathBuf,
     /// A law: neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, carroll, lopez-pamies, van-der-waals, extended-tube, polynomial:n,
-    /// ogden:n. Without any, the usual ones. Or, of tests with lateral stretches: hyperfoam:n, holzapfel-gasser-ogden.
+    /// ogden:n. Without any, the usual ones. Or, of tests with lateral stretches: hyperfoam:n, holzapfel-gasser-ogden. Or, of tests along
+    /// time: bergstrom-boyce, reese-govindjee, ogden-roxburgh, viscoplastic; they need the feature `history` of the program.
     #[arg(long = "law", value_name = "LAW")]
     pub(crate) laws: Vec<String>,
     /// Weights of tests, as uniaxial=2,planar=0.5; 0 holds a test out and compares the laws with it.

@@ -9,13 +9,20 @@ use piola_measured::sides::{SidesMeasurements, SidesModel, SidesOptions, card_of
 
 use crate::arguments::FitArguments;
 use crate::commands::{listing, note, print, refused};
+use crate::fit_options::refuse_all_but;
 use crate::interrupt::Interrupt;
-use crate::{Exit, comparison, flows};
+use crate::{Exit, comparison, flows, histories};
+
+/// The names of laws with history, also of a program that is built without them.
+const WITH_HISTORY: [&str; 4] = ["bergstrom-boyce", "reese-govindjee", "ogden-roxburgh", "viscoplastic"];
 
 pub(crate) fn fit(arguments: &FitArguments) -> Exit {
     let is_of_sides = |name: &String| name.parse::<SidesModel>().is_ok();
     if arguments.laws.iter().any(is_of_sides) {
         return with_sides(arguments);
+    }
+    if arguments.laws.iter().any(|name| WITH_HISTORY.contains(&name.as_str())) {
+        return histories::fit(arguments);
     }
     let interrupt = Interrupt::listen();
     let prepared = flows::only(&arguments.only).and_then(|only| {
@@ -96,22 +103,10 @@ fn with_sides(arguments: &FitArguments) -> Exit {
     if found.is_complete() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
 }
 
-/// The options of such a fit; those that it does not have are refused.
+/// The options of a fit of foam or fibres.
 fn sides_options(arguments: &FitArguments) -> Result<SidesOptions, MeasuredError> {
-    let unused = [
-        (arguments.mode_weights.is_some(), "--mode-weights"),
-        (arguments.equal_errors, "--equal-errors"),
-        (arguments.allow_unstable, "--allow-unstable"),
-        (!arguments.only.is_empty(), "--only"),
-        (arguments.cross_validate, "--cross-validate"),
-        (arguments.to.is_some(), "--to"),
-        (arguments.profile, "--profile"),
-        (!arguments.bounds.is_empty(), "--bound"),
-    ];
-    if let Some((_, option)) = unused.iter().find(|(given, _)| *given) {
-        let valid = "for laws of foam and of fibres: --law, --confidence, --card, --out and --json";
-        return Err(MeasuredError::Argument { argument: (*option).to_owned(), valid });
-    }
+    let valid = "for laws of foam and of fibres: --law, --confidence, --card, --out and --json";
+    refuse_all_but(arguments, &["--card"], valid)?;
     let mut options = SidesOptions::default();
     options.confidence = arguments.confidence;
     Ok(options)

@@ -6,10 +6,17 @@
 mod arguments;
 mod commands;
 mod comparison;
+mod fit_options;
 mod fits;
 mod flows;
+#[cfg(feature = "history")]
+mod histories;
+#[cfg(not(feature = "history"))]
+#[path = "histories/absent.rs"]
+mod histories;
 mod html;
 mod interrupt;
+mod nonlinear;
 mod progress;
 #[cfg(feature = "register")]
 mod register;
@@ -54,6 +61,7 @@ fn main() -> ExitCode {
         Command::FitFlow(arguments) => flows::fit(&arguments),
         Command::Flow(arguments) => flows::solve(&arguments),
         Command::Spectrum(arguments) => spectra::find(&arguments),
+        Command::Nonlinear(arguments) => nonlinear::fit(&arguments),
         Command::Specimen(arguments) => specimens::load(&arguments),
         Command::Register(arguments) => register::register(&arguments),
         Command::Schema(arguments) => commands::schema(&arguments),

@@ -122,6 +122,22 @@ pub enum FitError {
         /// Its value.
         value: f64,
     },
+    /// A measured number is not negative and finite.
+    #[error("row {row}: the {quantity} is {value}; it must be negative and finite")]
+    RowNotNegative {
+        /// The row, from 0.
+        row: usize,
+        /// The quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A second normal stress difference is measured, and that of the fluid is zero.
+    #[error("{model} has no second normal stress difference; of the viscoelastic fluids only giesekus has one")]
+    NoSecondNormalStressDifference {
+        /// The fluid.
+        model: String,
+    },
     /// A rate of a flow is not positive and finite.
     #[error("the rate of the flow is {value}; it must be positive and finite")]
     RateNotPositive {
@@ -203,6 +219,14 @@ pub enum FitError {
         model: String,
         /// The loading.
         loading: &'static str,
+    },
+    /// The angle of a strip is not finite.
+    #[error("test `{test}`: the angle {value} of the strip is not finite")]
+    AngleNotFinite {
+        /// The test.
+        test: String,
+        /// The angle, radians.
+        value: f64,
     },
     /// Lateral stretches are given of a test that has none to measure.
     #[error("the test `{test}` has lateral stretches, which {loading} tests do not tell")]

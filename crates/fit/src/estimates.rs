@@ -1,13 +1,75 @@
-//! What data say of the parameters of a solid: errors, intervals, criteria; and bounds given by name.
+//! What data say of parameters: errors, intervals, criteria; and bounds given by name.
 
 use nalgebra::DMatrix;
 
+#[cfg(feature = "solids")]
+use crate::FitError;
+use crate::State;
+#[cfg(feature = "solids")]
 use crate::search::Range;
+#[cfg(feature = "solids")]
 use crate::solids::SolidParameter;
 use crate::statistics::{Autocorrelation, Covariance, Criteria, interval, student};
-use crate::{FitError, State};
 
-/// Parameters with their errors, and what else the residuals say.
+/// A parameter's error and interval, and what the data say of it.
+pub(crate) struct Told {
+    pub(crate) standard_error: Option<f64>,
+    pub(crate) interval: Option<[f64; 2]>,
+    pub(crate) state: State,
+}
+
+/// What residuals and their derivatives tell: of each parameter, and of all.
+pub(crate) struct Judgement {
+    pub(crate) parameters: Vec<Told>,
+    pub(crate) degrees_of_freedom: usize,
+    pub(crate) criteria: Criteria,
+    pub(crate) autocorrelation: Option<Autocorrelation>,
+}
+
+/// Of values, bounds, whether each is at a bound, derivatives of the residuals by all parameters, and the residuals as series of
+/// neighbours.
+pub(crate) fn judged(
+    theta: &[f64],
+    bounds: &[[f64; 2]],
+    at_bound: &[bool],
+    slopes: &DMatrix<f64>,
+    series: &[&[f64]],
+    confidence: f64,
+) -> Judgement {
+    let points: usize = series.iter().map(|residuals| residuals.len()).sum();
+    let squares: f64 = series.iter().flat_map(|residuals| residuals.iter()).map(|r| r * r).sum();
+    let free: Vec<usize> = (0..theta.len()).filter(|&k| !at_bound[k]).collect();
+    let degrees_of_freedom = points - free.len();
+    let has_errors = 0 < degrees_of_freedom;
+    let variance = if has_errors { squares / degrees_of_freedom as f64 } else { 0.0 };
+    let autocorrelation = Autocorrelation::of(series.iter().copied()).filter(|_| 1e-9 < variance.sqrt());
+    let widening = autocorrelation.map_or(1.0, |found| found.widening);
+    let quantile = student(confidence, degrees_of_freedom).map(|t| t * widening);
+    let covariance = Covariance::new(slopes, &free, variance);
+    let told = |k: usize| {
+        let standard_error = covariance.standard_error(k).filter(|_| has_errors);
+        let half = standard_error.zip(quantile).map(|(error, quantile)| quantile * error);
+        let is_lost = half.is_some_and(|half| widest(theta[k], bounds[k]) <= half);
+        let state = match covariance.parameters.contains(&k) && !is_lost {
+            true if has_errors => State::Determined,
+            true => State::NoDegreesOfFreedom,
+            false if at_bound[k] => State::AtBound,
+            false => State::Undetermined,
+        };
+        let standard_error = standard_error.filter(|_| !is_lost);
+        let interval = half.filter(|_| !is_lost).map(|half| interval(theta[k], bounds[k], half));
+        Told { standard_error, interval, state }
+    };
+    Judgement {
+        parameters: (0..theta.len()).map(told).collect(),
+        degrees_of_freedom,
+        criteria: Criteria::new(points, free.len(), squares),
+        autocorrelation,
+    }
+}
+
+/// Parameters of a solid with their errors, and what else the residuals say.
+#[cfg(feature = "solids")]
 pub(crate) struct Estimates {
     pub(crate) parameters: Vec<SolidParameter>,
     pub(crate) degrees_of_freedom: usize,
@@ -17,6 +79,7 @@ pub(crate) struct Estimates {
 
 /// Of names with whether each is a stress, values, ranges, derivatives of the residuals by all parameters, and the residuals as series of
 /// neighbours.
+#[cfg(feature = "solids")]
 pub(crate) fn estimates(
     names: &[(String, bool)],
     theta: &[f64],
@@ -25,9 +88,7 @@ pub(crate) fn estimates(
     series: &[&[f64]],
     confidence: f64,
 ) -> Estimates {
-    let points: usize = series.iter().map(|residuals| residuals.len()).sum();
-    let squares: f64 = series.iter().flat_map(|residuals| residuals.iter()).map(|r| r * r).sum();
-    let at_bound = |k: usize| {
+    let is_at_bound = |k: usize| {
         let Range { bounds: [low, high], least } = ranges[k];
         let near = |bound: f64| {
             let width =
@@ -36,34 +97,16 @@ pub(crate) fn estimates(
         };
         ranges[k].is_fixed() || near(low) || near(high)
     };
-    let free: Vec<usize> = (0..theta.len()).filter(|&k| !at_bound(k)).collect();
-    let degrees_of_freedom = points - free.len();
-    let has_errors = 0 < degrees_of_freedom;
-    let variance = if has_errors { squares / degrees_of_freedom as f64 } else { 0.0 };
-    let autocorrelation = Autocorrelation::of(series.iter().copied()).filter(|_| 1e-9 < variance.sqrt());
-    let widening = autocorrelation.map_or(1.0, |found| found.widening);
-    let quantile = student(confidence, degrees_of_freedom).map(|t| t * widening);
-    let covariance = Covariance::new(slopes, &free, variance);
-    let estimate = |(k, (name, is_stress)): (usize, &(String, bool))| {
-        let standard_error = covariance.standard_error(k).filter(|_| has_errors);
-        let half = standard_error.zip(quantile).map(|(error, quantile)| quantile * error);
-        let is_lost = half.is_some_and(|half| widest(theta[k], ranges[k].bounds) <= half);
-        let state = match covariance.parameters.contains(&k) && !is_lost {
-            true if has_errors => State::Determined,
-            true => State::NoDegreesOfFreedom,
-            false if free.contains(&k) => State::Undetermined,
-            false => State::AtBound,
-        };
-        let standard_error = standard_error.filter(|_| !is_lost);
-        let interval = half.filter(|_| !is_lost).map(|half| interval(theta[k], ranges[k].bounds, half));
-        SolidParameter { name: name.clone(), is_stress: *is_stress, value: theta[k], standard_error, interval, state }
+    let at_bound: Vec<bool> = (0..theta.len()).map(is_at_bound).collect();
+    let bounds: Vec<[f64; 2]> = ranges.iter().map(|range| range.bounds).collect();
+    let Judgement { parameters, degrees_of_freedom, criteria, autocorrelation } =
+        judged(theta, &bounds, &at_bound, slopes, series, confidence);
+    let named = |((told, (name, is_stress)), value): ((Told, &(String, bool)), &f64)| {
+        let Told { standard_error, interval, state } = told;
+        SolidParameter { name: name.clone(), is_stress: *is_stress, value: *value, standard_error, interval, state }
     };
-    Estimates {
-        parameters: names.iter().enumerate().map(estimate).collect(),
-        degrees_of_freedom,
-        criteria: Criteria::new(points, free.len(), squares),
-        autocorrelation,
-    }
+    let parameters = parameters.into_iter().zip(names).zip(theta).map(named).collect();
+    Estimates { parameters, degrees_of_freedom, criteria, autocorrelation }
 }
 
 /// The half width of an interval beyond which data do not tell the order of magnitude of the distance to a single bound, nor where in
@@ -83,6 +126,7 @@ fn widest(value: f64, [low, high]: [f64; 2]) -> f64 {
 ///
 /// # Errors
 /// [`FitError::UnknownParameter`], [`FitError::ImpossibleBounds`].
+#[cfg(feature = "solids")]
 pub(crate) fn narrowed(
     model: &str,
     names: &[(String, bool)],

@@ -3,7 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod error;
-#[cfg(feature = "solids")]
+#[cfg(any(feature = "solids", feature = "nonlinear"))]
 mod estimates;
 #[cfg(feature = "fluids")]
 pub mod fluids;

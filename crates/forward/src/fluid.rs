@@ -23,7 +23,7 @@ fn dimension(parameter: &str) -> Option<Dimension> {
 }
 
 const VALID: &str = "NAME:PARAMETER=VALUE,…, as bingham:yield_stress=3 Pa,plastic_viscosity=50 mPa s; or a JSON file of a fluid, or the \
-                     summary.json of a fit-flow, with #NAME for one of its fluids";
+                     summary.json of a fit-flow or nonlinear, with #NAME for one of its fluids";
 
 /// A fluid, as `bingham:yield_stress=3,plastic_viscosity=0.05`, a JSON file, or a fit's `summary.json` with `#bingham`.
 ///
@@ -90,6 +90,10 @@ fn of_file(path: &Path, name: Option<&str>) -> Result<AnyFluid, ForwardError> {
         let names: Vec<&str> = fluids.iter().filter_map(|fluid| fluid["fluid"].as_str()).collect();
         return Err(wrong(format!("no fluid of this fit is called {name}; it has {}", names.join(", "))));
     };
+    // A fluid of several modes is written whole.
+    if found["law"].is_object() {
+        return written_fluid(found["law"].clone()).map_err(|error| wrong(error.to_string()));
+    }
     let mut fields = Map::new();
     for parameter in found["parameters"].as_array().into_iter().flatten() {
         if let Some(name) = parameter["name"].as_str() {

@@ -5,6 +5,9 @@
 pub mod comparison;
 mod error;
 pub mod fitting;
+#[cfg(feature = "history")]
+pub mod history;
+pub mod nonlinear;
 pub mod rheology;
 mod sheet;
 pub mod sides;

@@ -52,7 +52,8 @@ pub struct SpectrumFit {
     /// The retardation spectrum that was fitted, if the data are of creep.
     pub retardation: Option<RetardationFit>,
     /// 95 % interval of each gᵢ, Pa, symmetric in ln gᵢ; `None` of a mode that the data do not determine to four orders of magnitude.
-    /// Of creep there are none: [`RetardationFit`] has those of what was fitted.
+    /// Of creep they follow to first order from those of what was fitted, which [`RetardationFit`] has; `None` where the data do not
+    /// determine all of it.
     pub modulus_intervals: Vec<Option<[f64; 2]>>,
     /// 95 % interval of each τᵢ, s, symmetric in ln τᵢ.
     pub relaxation_time_intervals: Vec<Option<[f64; 2]>>,
@@ -237,21 +238,39 @@ fn report(found: Found<'_>, tried: Vec<ModeCount>, interrupted: bool) -> Result<
     let within = |term: Term| place(term).and_then(interval);
     let relative_error = (squares / rows as f64).sqrt();
     if misfit.data.is_creep() {
+        let (glassy_interval, fluidity_interval) = (within(Term::Glassy), within(Term::Flow));
         let mode = |&k: &usize| RetardationMode { compliance: x[2 * k].exp(), retardation_time: x[2 * k + 1].exp() };
         let modes = order.iter().map(mode).collect();
         let spectrum = RetardationSpectrum::new(modes, size(Term::Glassy), size(Term::Flow))?;
+        let relaxation = RelaxationSpectrum::of(&spectrum)?;
+        let converted = |x: &[f64]| {
+            let mode = |k: &usize| RetardationMode { compliance: x[2 * k].exp(), retardation_time: x[2 * k + 1].exp() };
+            let size = |term: Term| place(term).map_or(0.0, |k| x[k].exp());
+            let modes = order.iter().map(mode).collect();
+            let spectrum = RetardationSpectrum::new(modes, size(Term::Glassy), size(Term::Flow)).ok()?;
+            Some(logarithms(&RelaxationSpectrum::of(&spectrum).ok()?))
+        };
+        let halves = first_order(&covariance, x, &logarithms(&relaxation), &converted);
+        let within = |k: usize| {
+            let half = factor? * halves.as_ref()?[k];
+            let value = logarithms(&relaxation)[k];
+            (half < LOST).then(|| [(value - half).exp(), (value + half).exp()])
+        };
+        let count = relaxation.modes().len();
+        let (moduli, relaxation_times) =
+            ((0..count).map(|k| within(2 * k)).collect(), (0..count).map(|k| within(2 * k + 1)).collect());
         return Ok(SpectrumFit {
-            spectrum: RelaxationSpectrum::of(&spectrum)?,
+            equilibrium_interval: if relaxation.is_liquid() { None } else { within(2 * count) },
+            spectrum: relaxation,
             retardation: Some(RetardationFit {
                 spectrum,
                 compliance_intervals: heights,
                 retardation_time_intervals: times,
-                glassy_interval: within(Term::Glassy),
-                fluidity_interval: within(Term::Flow),
+                glassy_interval,
+                fluidity_interval,
             }),
-            modulus_intervals: Vec::new(),
-            relaxation_time_intervals: Vec::new(),
-            equilibrium_interval: None,
+            modulus_intervals: moduli,
+            relaxation_time_intervals: relaxation_times,
             relative_error,
             outcome,
             interrupted,
@@ -270,4 +289,46 @@ fn report(found: Found<'_>, tried: Vec<ModeCount>, interrupted: bool) -> Result<
         interrupted,
         tried,
     })
+}
+
+/// ln gᵢ and ln τᵢ of each mode; then ln Gₑ, of a solid.
+fn logarithms(spectrum: &RelaxationSpectrum) -> Vec<f64> {
+    let modes = spectrum.modes().iter().flat_map(|mode| [mode.modulus.ln(), mode.relaxation_time.ln()]);
+    let equilibrium = (!spectrum.is_liquid()).then(|| spectrum.equilibrium_modulus().ln());
+    modes.chain(equilibrium).collect()
+}
+
+/// Standard errors of functions of the coordinates x, to first order: √(d C dᵀ) with central differences d. None unless all coordinates
+/// are determined and all functions are there.
+fn first_order(
+    covariance: &Covariance,
+    x: &[f64],
+    values: &[f64],
+    functions: &dyn Fn(&[f64]) -> Option<Vec<f64>>,
+) -> Option<Vec<f64>> {
+    const STEP: f64 = 1e-4;
+    if covariance.parameters.len() != x.len() {
+        return None;
+    }
+    let mut slopes = Vec::with_capacity(x.len());
+    for k in 0..x.len() {
+        let at = |step: f64| {
+            let mut moved = x.to_vec();
+            moved[k] += step;
+            functions(&moved).filter(|found| found.len() == values.len())
+        };
+        let (after, before) = (at(STEP)?, at(-STEP)?);
+        slopes
+            .push(after.iter().zip(before).map(|(after, before)| (after - before) / (2.0 * STEP)).collect::<Vec<_>>());
+    }
+    let variance = |function: usize| {
+        let mut sum = 0.0;
+        for (i, row) in covariance.matrix.iter().enumerate() {
+            for (j, entry) in row.iter().enumerate() {
+                sum += slopes[i][function] * entry * slopes[j][function];
+            }
+        }
+        sum
+    };
+    Some((0..values.len()).map(|function| variance(function).max(0.0).sqrt()).collect())
 }

@@ -4,7 +4,7 @@
 //! bₜ y(ω, θ) = y(ω aₜ, θ₀)      ln aₜ = (E/R) (1/θ − 1/θ₀)      log₁₀ aₜ = −C₁ (θ − θ₀)/(C₂ + θ − θ₀)
 //! ```
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Matrix2};
 use piola_fit::internal::{Misfit, Range, minimise};
 use piola_fit::{Covariance, Outcome, student};
 use piola_fluids::{Arrhenius, TemperatureShift, WilliamsLandelFerry};
@@ -24,7 +24,8 @@ pub struct IsothermalCurve<'c> {
 /// Horizontal shifts ln aₜ that lay each curve over its neighbour, from curves in the order of their temperatures.
 ///
 /// The shift of two neighbours minimises the mean square of ln y − ln yₙ over the points of either that the other one
-/// reaches, with ln yₙ linear between the points of the neighbour in ln ω.
+/// reaches, with ln yₙ linear between the points of the neighbour in ln ω. Each difference is weighted by the inverse of the variance that
+/// equal relative errors of all points give it.
 /// At least four points must overlap, and a third of the number of points of the shorter curve. `reference` is the curve whose
 /// shift is zero.
 ///
@@ -56,12 +57,19 @@ pub fn horizontal_shifts(curves: &[IsothermalCurve<'_>], reference: usize) -> Re
 }
 
 /// A shift along both axes.
+///
+/// # Example
+/// See [`shifts_along_both_axes`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CurveShift {
     /// ln aₜ, added to ln ω.
     pub ln_horizontal: f64,
     /// ln bₜ, added to ln y.
     pub ln_vertical: f64,
+    /// 95 % interval of ln aₜ for independent relative errors of the moduli, of one size; none of the reference.
+    pub horizontal_interval: Option<[f64; 2]>,
+    /// 95 % interval of ln bₜ.
+    pub vertical_interval: Option<[f64; 2]>,
 }
 
 /// Shifts along both axes, from the curves of each temperature, such as G′ and G″, in the order of the temperatures.
@@ -78,7 +86,7 @@ pub struct CurveShift {
 ///
 /// # Accuracy
 /// As [`horizontal_shifts`], over the difference of slopes along the curves instead of the slope. Noise of the moduli scatters ln bₜ
-/// likewise.
+/// likewise: the intervals tell it. They do not hold the error of interpolation, and suppose that pairs of neighbours are independent.
 ///
 /// # Example
 /// ```
@@ -116,18 +124,35 @@ fn chained(
         return Err(SpectraError::WrongLength { quantity: "curves of a temperature", expected, found: other.len() });
     }
     let mut shifts = vec![CurveShift::default()];
+    let mut scatter = Vec::new();
     for (first, pair) in logarithms.windows(2).enumerate() {
         let shift = overlap([&pair[0], &pair[1]], vertical, first)?;
+        scatter.push(if vertical { scattered([&pair[0], &pair[1]], shift) } else { None });
         let before = shifts[first];
         shifts.push(CurveShift {
             ln_horizontal: before.ln_horizontal + shift.ln_horizontal,
             ln_vertical: before.ln_vertical + shift.ln_vertical,
+            ..CurveShift::default()
         });
     }
     let zero = shifts[reference];
-    for shift in &mut shifts {
+    for (index, shift) in shifts.iter_mut().enumerate() {
         shift.ln_horizontal -= zero.ln_horizontal;
         shift.ln_vertical -= zero.ln_vertical;
+        // Of the pairs between this curve and the reference.
+        let pairs = &scatter[index.min(reference)..index.max(reference)];
+        let Some(pairs) = pairs.iter().copied().collect::<Option<Vec<Scatter>>>().filter(|pairs| !pairs.is_empty())
+        else {
+            continue;
+        };
+        let degrees = pairs.iter().map(|pair| pair.degrees).min().unwrap_or(0);
+        let half = |axis: usize| {
+            let variance: f64 = pairs.iter().map(|pair| pair.variances[axis]).sum();
+            student(0.95, degrees).map(|t| t * variance.sqrt())
+        };
+        let about = |at: f64, half: Option<f64>| half.map(|half| [at - half, at + half]);
+        shift.horizontal_interval = about(shift.ln_horizontal, half(0));
+        shift.vertical_interval = about(shift.ln_vertical, half(1));
     }
     Ok(shifts)
 }
@@ -152,44 +177,110 @@ fn logarithms(curve: &IsothermalCurve<'_>) -> Result<Vec<[f64; 2]>, SpectraError
     Ok(frequencies.iter().zip(moduli).map(|(w, y)| [w.ln(), y.ln()]).collect())
 }
 
-/// ln y of a curve at ln ω between its points; `None` outside.
-fn between(curve: &[[f64; 2]], at: f64) -> Option<f64> {
+/// ln y of a curve at ln ω between its points, the point after it, and the share of that point; `None` outside.
+fn between(curve: &[[f64; 2]], at: f64) -> Option<(f64, usize, f64)> {
     let next = curve.partition_point(|point| point[0] < at).max(1);
     let ([x0, y0], [x, y]) = (curve[next - 1], *curve.get(next)?);
-    let slope = (y - y0) / (x - x0);
-    (x0 <= at).then_some(y0 + slope * (at - x0))
+    let share = (at - x0) / (x - x0);
+    (x0 <= at).then_some((y0 + share * (y - y0), next, share))
 }
 
-/// What is left between curves at a shift: number, mean and mean square of ln y − ln yₙ.
+/// The weight of a difference from what lies between two points: noise of all points has the variance 1/weight there. Without it shifts by
+/// half a step, where noise is averaged, would seem to fit best.
+fn weight(share: f64) -> f64 {
+    (1.0 + share * share + (1.0 - share) * (1.0 - share)).recip()
+}
+
+/// What is left between curves at a shift: the number of differences ln y − ln yₙ, their weighted mean, their squares by their weights over
+/// the number, and the same about the mean.
 #[derive(Clone, Copy)]
 struct Gap {
     count: usize,
     mean: f64,
     mean_square: f64,
+    variance: f64,
 }
 
 fn gap(fixed: &[Vec<[f64; 2]>], moved: &[Vec<[f64; 2]>], shift: f64) -> Gap {
-    let (mut count, mut sums) = (0_usize, [0.0; 2]);
-    let mut add = |difference: f64| {
+    let (mut count, mut sums) = (0_usize, [0.0; 3]);
+    let mut add = |difference: f64, share: f64| {
         count += 1;
-        for (sum, term) in sums.iter_mut().zip([difference, difference * difference]) {
-            *sum += term;
+        for (sum, term) in sums.iter_mut().zip([1.0, difference, difference * difference]) {
+            *sum += weight(share) * term;
         }
     };
     for (fixed, moved) in fixed.iter().zip(moved) {
         for &[x, y] in moved {
-            if let Some(there) = between(fixed, x + shift) {
-                add(there - y);
+            if let Some((there, _, share)) = between(fixed, x + shift) {
+                add(there - y, share);
             }
         }
         for &[x, y] in fixed {
-            if let Some(there) = between(moved, x - shift) {
-                add(y - there);
+            if let Some((there, _, share)) = between(moved, x - shift) {
+                add(y - there, share);
             }
         }
     }
-    let [mean, mean_square] = sums.map(|sum| sum / count as f64);
-    Gap { count, mean, mean_square }
+    let [weights, first, second] = sums;
+    let mean = first / weights;
+    let [mean_square, variance] = [second, second - mean * first].map(|sum| sum / count as f64);
+    Gap { count, mean, mean_square, variance }
+}
+
+/// The scatter of a shift along both axes by noise.
+#[derive(Clone, Copy)]
+struct Scatter {
+    /// Variances of ln a and ln b.
+    variances: [f64; 2],
+    degrees: usize,
+}
+
+/// The scatter of the shift of least weighted squares: differences d = ln yₙ − ln y of all points, of which each holds the errors of three.
+///
+/// ```text
+/// d = A (δ ln a, ln b) + L ε      A = (slope, 1)      wᵢ = 1/(LLᵀ)ᵢᵢ      σ² = Σ w d²/n
+/// Cov = σ² (AᵀWA)⁻¹ AᵀWL LᵀWA (AᵀWA)⁻¹
+/// ```
+fn scattered([fixed, moved]: [&[Vec<[f64; 2]>]; 2], shift: CurveShift) -> Option<Scatter> {
+    let (mut normal, mut noise) = ([[0.0; 2]; 2], [[0.0; 2]; 2]);
+    let (mut squares, mut count) = (0.0, 0_usize);
+    for (fixed, moved) in fixed.iter().zip(moved) {
+        // AᵀWL by the points of either curve.
+        let mut loads = [vec![[0.0; 2]; fixed.len()], vec![[0.0; 2]; moved.len()]];
+        for (own, (curve, other, sign)) in [(1, (moved, fixed, 1.0)), (0, (fixed, moved, -1.0))] {
+            for (place, &[x, y]) in curve.iter().enumerate() {
+                let Some((there, next, share)) = between(other, x + sign * shift.ln_horizontal) else { continue };
+                // Over some points: noise of two neighbours would be taken for slopes.
+                let (a, b) = (other[next.saturating_sub(4)], other[(next + 3).min(other.len() - 1)]);
+                let row = [(b[1] - a[1]) / (b[0] - a[0]), 1.0];
+                let (difference, weight) = (sign * (there - y) - shift.ln_vertical, weight(share));
+                for (i, normal) in normal.iter_mut().enumerate() {
+                    for (j, entry) in normal.iter_mut().enumerate() {
+                        *entry += weight * row[i] * row[j];
+                    }
+                    let load = sign * weight * row[i];
+                    loads[own][place][i] -= load;
+                    loads[1 - own][next - 1][i] += load * (1.0 - share);
+                    loads[1 - own][next][i] += load * share;
+                }
+                squares += weight * difference * difference;
+                count += 1;
+            }
+        }
+        for load in loads.iter().flatten() {
+            for (i, noise) in noise.iter_mut().enumerate() {
+                for (j, entry) in noise.iter_mut().enumerate() {
+                    *entry += load[i] * load[j];
+                }
+            }
+        }
+    }
+    let inverse = Matrix2::from(normal).try_inverse()?;
+    let covariance = inverse * Matrix2::from(noise) * inverse * (squares / count as f64);
+    // Each pair of points is compared twice.
+    let degrees = (count / 2).checked_sub(2).filter(|degrees| 0 < *degrees)?;
+    let variances = [covariance[(0, 0)], covariance[(1, 1)]];
+    variances.iter().all(|x| x.is_finite()).then_some(Scatter { variances, degrees })
 }
 
 /// The shift that lays `moved` over `fixed`, curve by curve.
@@ -215,11 +306,11 @@ fn overlap([fixed, moved]: [&[Vec<[f64; 2]>]; 2], vertical: bool, first: usize) 
     let points = |curves: &[Vec<[f64; 2]>]| curves.iter().map(Vec::len).sum::<usize>();
     let least = (points(fixed).min(points(moved)) / 3).max(4 * fixed.len());
     let misfit = |shift: f64| {
-        let Gap { count, mean, mean_square, .. } = gap(fixed, moved, shift);
+        let Gap { count, mean_square, variance, .. } = gap(fixed, moved, shift);
         match (least <= count, vertical) {
             (false, _) => f64::INFINITY,
             (_, false) => mean_square,
-            (_, true) => mean_square - mean * mean,
+            (_, true) => variance,
         }
     };
     let ([start, end], [from, to]) = (range(fixed, 0), range(moved, 0));
@@ -250,7 +341,7 @@ fn overlap([fixed, moved]: [&[Vec<[f64; 2]>]; 2], vertical: bool, first: usize) 
     let middle = 0.5 * (a + b);
     let ln_horizontal = if misfit(middle) <= least_misfit { middle } else { best };
     let Gap { mean, .. } = gap(fixed, moved, ln_horizontal);
-    Ok(CurveShift { ln_horizontal, ln_vertical: if vertical { mean } else { 0.0 } })
+    Ok(CurveShift { ln_horizontal, ln_vertical: if vertical { mean } else { 0.0 }, ..CurveShift::default() })
 }
 
 /// A law of temperature fitted to shifts, with 95 % intervals of its constants.

@@ -281,3 +281,41 @@ fn a_full_device_is_a_failure() {
     let status = command.status().unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(status.code(), Some(1));
 }
+
+#[test]
+fn viscoelastic_fluids_are_fitted_to_flows_in_files_of_their_own_and_flow_again() {
+    // Oldroyd's fluid B: ηₛ = 1, ηₚ = 2 Pa s, λ = 4 s; N₁ = 2 ηₚ λ k², and the start-up at 1/s.
+    let folder = Folder::new("boger");
+    let rates = [0.5_f64, 1.0, 2.0, 4.0];
+    let steady = rates.iter().fold("shear rate [1/s],N1 [Pa]\n".to_owned(), |mut text, k| {
+        let _ = writeln!(text, "{k},{}", 16.0 * k * k);
+        text
+    });
+    folder.write("normal.csv", &steady);
+    let mut start = "# shear rate: 60 1/min\ntime [s],shear stress [Pa]\n0,\n".to_owned();
+    for t in [0.5_f64, 1.0, 2.0, 4.0, 8.0, 16.0] {
+        let _ = writeln!(start, "{t},{:?}", 1.0 + 2.0 * (1.0 - (-t / 4.0).exp()));
+    }
+    folder.write("start.csv", &start);
+    let files = ["nonlinear", "start.csv", "normal.csv"];
+    let (code, shown, told) = folder.piola(&[&files[..], &["--fluid", "oldroyd-b", "--fluid", "giesekus"]].concat());
+    assert_eq!(code, Some(0), "{shown}{told}");
+    assert!(shown.contains("start.csv") || shown.contains("start: 10 rows in 2 flows"), "{shown}");
+    assert!(shown.contains("written to out/nonlinear-start: summary.json, predictions.csv, residuals.csv, fit.svg"));
+    let summary: serde_json::Value =
+        serde_json::from_str(&folder.read("out/nonlinear-start/summary.json")).expect("JSON");
+    for (parameter, exact) in [1.0, 2.0, 4.0].into_iter().enumerate() {
+        let found = summary["fluids"][0]["parameters"][parameter]["value"].as_f64().expect("a number");
+        assert!((found / exact - 1.0).abs() < 1e-8, "{found}");
+    }
+    assert!(folder.read("out/nonlinear-start/fit.svg").contains("start-up of shear"));
+    // τ = 3 k at the wall: Q = π R⁴ G/(8 η) = π · 10⁻¹² · 1000/24.
+    let fluid = "out/nonlinear-start/summary.json#oldroyd-b";
+    let pipe = ["flow", "pipe", "--fluid", fluid, "--radius", "1 mm", "--given", "pressure_gradient=1000 Pa/m"];
+    let (code, shown, told) = folder.piola(&pipe);
+    assert_eq!(code, Some(0), "{shown}{told}");
+    let (code, _, told) = folder.piola(&[&files[..], &["--fluid", "newtonian"]].concat());
+    assert!(code == Some(2) && told.contains("kbkz-rational"), "{told}");
+    let (code, _, told) = folder.piola(&[&files[..], &["--spectrum", "normal.csv"]].concat());
+    assert!(code == Some(2) && told.contains("the summary.json of `piola spectrum`"), "{told}");
+}

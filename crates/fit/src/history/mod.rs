@@ -15,13 +15,14 @@ mod test;
 use core::cell::Cell;
 
 use nalgebra::DMatrix;
-use piola_inelastic::StepControl;
 
 use crate::estimates::{Estimates, estimates, narrowed};
 use crate::search::{Misfit, Range, minimise};
 use crate::solids::SolidParameter;
 use crate::statistics::{Autocorrelation, Criteria};
 use crate::{FitError, Outcome};
+
+pub use piola_inelastic::StepControl;
 
 pub use model::{AnyHistoryModel, HistoryModel, HistoryParameter};
 pub use test::{HistoryTest, follow};
@@ -162,6 +163,20 @@ pub fn fit_history(
     start: &[f64],
     options: &HistoryOptions,
 ) -> Result<HistoryFit, FitError> {
+    fit_history_until(model, tests, start, options, &|| false)
+}
+
+/// The same until `stop` says so; the best parameters until then come with [`Outcome::Interrupted`].
+///
+/// # Errors
+/// As [`fit_history`].
+pub fn fit_history_until(
+    model: &dyn HistoryModel,
+    tests: &[HistoryTest],
+    start: &[f64],
+    options: &HistoryOptions,
+    stop: &dyn Fn() -> bool,
+) -> Result<HistoryFit, FitError> {
     if !(0.0 < options.confidence && options.confidence < 1.0) {
         return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
     }
@@ -200,7 +215,7 @@ pub fn fit_history(
     problem.residuals(&start)?;
     let x = searched.iter().map(|&k| problem.ranges[k].inward(start[k])).collect();
     let walk = Walk { problem: &problem, searched: &searched, parameters: start };
-    let Some(end) = minimise(walk, x, options.patience.clamp(1, 1_000_000), &|| false) else {
+    let Some(end) = minimise(walk, x, options.patience.clamp(1, 1_000_000), stop) else {
         return Err(FitError::NoStart { model: model.name() });
     };
     let (theta, (x, residuals)) = (end.misfit.parameters, end.state);

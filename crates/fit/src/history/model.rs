@@ -8,6 +8,7 @@ use piola_solids::{Hencky, NeoHookeanCiarlet};
 
 use super::test::{HistoryTest, follow};
 use crate::FitError;
+use crate::sides::Loading;
 
 /// A parameter of a model: its name, whether it is in the unit of the stresses, and its bounds.
 pub type HistoryParameter = (&'static str, bool, [f64; 2]);
@@ -105,6 +106,67 @@ const OVERSTRESS: [HistoryParameter; 2] =
 impl AnyHistoryModel {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::BergstromBoyce, Self::ReeseGovindjee, Self::OgdenRoxburgh, Self::Viscoplastic];
+
+    /// Starts of a search about the stresses, stretches and times of tests: for [`fit_history`](super::fit_history), which searches from
+    /// one. First Lamé parameters, which tests with free sides hardly tell, are a hundred shear moduli; of metal one and a half.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_fit::history::{AnyHistoryModel, HistoryTest};
+    /// use piola_fit::sides::Loading;
+    /// let test = HistoryTest::new("shear", Loading::SimpleShear, &[[1.0, 0.5, 2.0], [9.0, 0.5, 1.0]])?;
+    /// let starts = AnyHistoryModel::ReeseGovindjee.starts(&[test]);
+    /// assert!(starts.len() == 3 && starts[0][1] == 100.0 * starts[0][0]);
+    /// # Ok::<(), piola_fit::FitError>(())
+    /// ```
+    #[must_use]
+    pub fn starts(self, tests: &[HistoryTest]) -> Vec<Vec<f64>> {
+        // P = μ (λ − λ⁻ⁿ) of a neo-Hookean solid that keeps its volume; the row of the largest stress of each test.
+        let modulus = |test: &HistoryTest| {
+            let [_, stretch, stress] = *test.rows().iter().max_by(|a, b| a[2].abs().total_cmp(&b[2].abs()))?;
+            let strain = match test.loading() {
+                Loading::SimpleShear => stretch,
+                Loading::Equibiaxial => stretch - stretch.powi(-5),
+                Loading::Planar => stretch - stretch.powi(-3),
+                _ => stretch - stretch.powi(-2),
+            };
+            Some((stress / strain).abs()).filter(|modulus| 0.0 < *modulus && modulus.is_finite())
+        };
+        let mu = tests.iter().filter_map(modulus).fold(0.0, f64::max);
+        let mu = if 0.0 < mu { mu } else { 1.0 };
+        let largest = tests.iter().map(HistoryTest::largest_stress).fold(0.0, f64::max);
+        let duration = tests.iter().filter_map(|test| Some(test.rows().last()?[0])).fold(0.0, f64::max);
+        let duration = if 0.0 < duration { duration } else { 1.0 };
+        let first = tests.iter().flat_map(|test| test.rows().windows(2)).map(|rows| rows[1][0] - rows[0][0]);
+        let shortest = first.filter(|step| 0.0 < *step).fold(duration, f64::min);
+        // A time of relaxation near the shortest step, near the duration, and between them.
+        let times = [3.0 * shortest, (shortest * duration).sqrt(), 0.3 * duration];
+        let bulk = 100.0 * mu;
+        match self {
+            Self::BergstromBoyce => {
+                times.iter().map(|time| vec![mu, bulk, mu, bulk, 1.0, largest * time.sqrt(), 4.0, -0.5, 0.01]).collect()
+            }
+            Self::ReeseGovindjee => times.iter().map(|time| vec![mu, bulk, mu, bulk, mu * time]).collect(),
+            Self::OgdenRoxburgh => {
+                [1.5, 3.0].iter().map(|softening| vec![mu, bulk, *softening, 0.1 * largest, 0.1]).collect()
+            }
+            Self::Viscoplastic => {
+                // A test beyond the yield stress shows less than the elastic modulus.
+                let steep = |test: &HistoryTest| {
+                    let rows = test.rows().iter().find(|row| 0.1 * test.largest_stress() < row[2].abs())?;
+                    let strain = if test.loading() == Loading::SimpleShear { rows[1] } else { 3.0 * (rows[1] - 1.0) };
+                    Some((rows[2] / strain).abs()).filter(|modulus| modulus.is_finite())
+                };
+                let mu = tests.iter().filter_map(steep).fold(mu, f64::max);
+                times
+                    .iter()
+                    .map(|time| {
+                        vec![mu, 1.5 * mu, 0.7 * largest, 0.1 * largest, 0.2 * largest, 5.0, 0.1 * largest * time]
+                    })
+                    .collect()
+            }
+        }
+    }
 
     const fn word(self) -> &'static str {
         match self {

@@ -12,6 +12,18 @@ pub enum ShearResponse {
     ShearStress,
     /// N₁, Pa.
     FirstNormalStressDifference,
+    /// N₂, Pa; negative.
+    SecondNormalStressDifference,
+}
+
+impl ShearResponse {
+    /// The sign of all its values.
+    pub(super) const fn sign(self) -> f64 {
+        match self {
+            Self::SecondNormalStressDifference => -1.0,
+            _ => 1.0,
+        }
+    }
 }
 
 /// A flow and what is measured in it.
@@ -39,6 +51,17 @@ pub enum NonlinearFlow {
     },
 }
 
+impl NonlinearFlow {
+    /// What is measured, if it is a shear flow.
+    #[must_use]
+    pub const fn shear_response(self) -> Option<ShearResponse> {
+        match self {
+            Self::SteadyShear(response) | Self::ShearStartUp { response, .. } => Some(response),
+            _ => None,
+        }
+    }
+}
+
 /// Rows (drive, response) of one flow.
 ///
 /// # Example
@@ -60,7 +83,8 @@ impl NonlinearData {
     /// From rows in any order; they are sorted by their drive.
     ///
     /// # Errors
-    /// [`FitError::RateNotPositive`]; [`FitError::RowNotPositive`] for a drive or a response that is not positive and finite.
+    /// [`FitError::RateNotPositive`]; [`FitError::RowNotPositive`] for a drive or a response that is not positive and finite;
+    /// [`FitError::RowNotNegative`] for an N₂ that is not negative and finite.
     pub fn new(flow: NonlinearFlow, mut rows: Vec<[f64; 2]>) -> Result<Self, FitError> {
         let holds = |value: f64| 0.0 < value && value.is_finite();
         let check = |row: usize, quantity: &'static str, value: f64| {
@@ -72,9 +96,14 @@ impl NonlinearData {
         {
             return Err(FitError::RateNotPositive { value: rate });
         }
+        let is_negative = flow.shear_response().is_some_and(|response| response.sign() < 0.0);
         for (row, &[drive, response]) in rows.iter().enumerate() {
             check(row, "drive", drive)?;
-            check(row, "response", response)?;
+            if !is_negative {
+                check(row, "response", response)?;
+            } else if !holds(-response) {
+                return Err(FitError::RowNotNegative { row, quantity: "response", value: response });
+            }
         }
         rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
         Ok(Self { flow, rows })
@@ -96,6 +125,10 @@ impl NonlinearData {
     pub(super) fn scales(&self) -> Option<[f64; 2]> {
         let largest = |f: &dyn Fn(&[f64; 2]) -> f64| self.rows.iter().map(f).fold(0.0, f64::max);
         let last = self.rows.last()?[0];
+        // N₂ is a share of N₁ that is not known yet.
+        if self.flow.shear_response() == Some(ShearResponse::SecondNormalStressDifference) {
+            return None;
+        }
         let found = match self.flow {
             NonlinearFlow::SteadyShear(ShearResponse::ShearStress) => [largest(&|[k, tau]| tau / k), last],
             NonlinearFlow::ShearStartUp { shear_rate, response: ShearResponse::ShearStress } => {

@@ -4,7 +4,8 @@
 //! minimise S(θ) = Σ ln²(answer/measured)      over all rows of all flows
 //! ```
 //! Answers are closed forms where there are any: steady shear, steady extension of differential fluids, start-up of Oldroyd's fluid B.
-//! The others are integrated along the flow to 10⁻¹². The search is that of Levenberg and Marquardt over ln θ, or between bounds, from
+//! The others are integrated along the flow to 10⁻¹². A fluid has one relaxation mode, several that are fitted, or those of a spectrum
+//! that is known ([`RelaxationModes`]). The search is that of Levenberg and Marquardt over ln θ, or between bounds, from
 //! several starts; derivatives are central differences.
 //!
 //! # Example
@@ -22,21 +23,22 @@
 //! # Ok::<(), piola_fit::FitError>(())
 //! ```
 
+mod answers;
 mod data;
 mod model;
 
-pub use crate::{Autocorrelation, Covariance, Criteria, Outcome, State};
+pub use crate::{Autocorrelation, Criteria, Outcome, State};
 pub use data::{Extension, NonlinearData, NonlinearFlow, ShearResponse};
-pub use model::NonlinearModel;
+pub use model::{NonlinearModel, RelaxationModes};
 
 use core::cell::Cell;
 
 use nalgebra::DMatrix;
 use piola_fluids::AnyFluid;
 
+use crate::FitError;
+use crate::estimates::{Judgement, judged};
 use crate::search::{Misfit, Range, minimise};
-use crate::statistics::interval;
-use crate::{FitError, student};
 
 /// Options of a fit.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,13 +47,15 @@ pub struct Options {
     pub confidence: f64,
     /// Evaluations of a search, for each parameter.
     pub patience: usize,
-    /// Where searches start, if not at six places about the viscosities and rates of the data.
+    /// Where searches start, if not at a few places about the viscosities and rates of the data.
     pub starts: Vec<Vec<f64>>,
+    /// The relaxation modes: so many are fitted, or they are given.
+    pub modes: RelaxationModes,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { confidence: 0.95, patience: 60, starts: Vec::new() }
+        Self { confidence: 0.95, patience: 60, starts: Vec::new(), modes: RelaxationModes::default() }
     }
 }
 
@@ -60,7 +64,7 @@ impl Default for Options {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NonlinearParameter {
     /// Its name.
-    pub name: &'static str,
+    pub name: String,
     /// Its value, SI.
     pub value: f64,
     /// Its standard error for independent residuals, if the data determine it and there are degrees of freedom.
@@ -99,6 +103,7 @@ pub struct NonlinearFit {
 /// Residuals over unbounded coordinates.
 struct Walk<'p> {
     model: NonlinearModel,
+    modes: &'p RelaxationModes,
     data: &'p [NonlinearData],
     ranges: &'p [Range],
     evaluations: &'p Cell<usize>,
@@ -113,7 +118,7 @@ impl Walk<'_> {
         self.evaluations.set(self.evaluations.get() + 1);
         let mut residuals = Vec::with_capacity(self.data.iter().map(|set| set.rows().len()).sum());
         for set in self.data {
-            self.model.answers(parameters, set, &mut residuals).ok()?;
+            self.model.answer(self.modes, parameters, set, &mut residuals).ok()?;
         }
         let measured = self.data.iter().flat_map(NonlinearData::rows);
         residuals.iter_mut().zip(measured).for_each(|(answer, row)| *answer = (*answer / row[1]).ln());
@@ -176,7 +181,9 @@ impl Misfit for Walk<'_> {
 /// What cannot converge still returns the best parameters that were found, with an [`Outcome`] that says so.
 ///
 /// # Errors
-/// [`FitError::TooFewPoints`], [`FitError::ConfidenceOutOfRange`]; [`FitError::NumberOfValues`] of a start; [`FitError::NoStart`] if no start has finite answers.
+/// [`FitError::TooFewPoints`], [`FitError::ConfidenceOutOfRange`]; [`FitError::SeriesLength`] or [`FitError::Fluids`] for relaxation modes
+/// that are none; [`FitError::NoSecondNormalStressDifference`] if N₂ is measured and the fluid has none; [`FitError::NumberOfValues`] of
+/// a start; [`FitError::NoStart`] if no start has finite answers.
 ///
 /// # Accuracy
 /// Exact data give the parameters back to 10⁻⁸ where they determine them. Intervals suppose small errors.
@@ -204,17 +211,24 @@ pub fn fit_nonlinear_until(
     if !(0.0 < options.confidence && options.confidence < 1.0) {
         return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
     }
+    options.modes.check()?;
+    let is_second =
+        |set: &NonlinearData| set.flow().shear_response() == Some(ShearResponse::SecondNormalStressDifference);
+    if !model.has_second_normal_stress() && data.iter().any(is_second) {
+        return Err(FitError::NoSecondNormalStressDifference { model: model.name().to_owned() });
+    }
     let rows: usize = data.iter().map(|set| set.rows().len()).sum();
-    let n = model.parameters().len();
+    let names = model.parameters(&options.modes);
+    let n = names.len();
     if rows < n {
         return Err(FitError::TooFewPoints { model: model.name().to_owned(), points: rows, parameters: n });
     }
-    let range = |k: usize| Range { bounds: model.bounds(k), least: f64::MIN_POSITIVE };
-    let ranges: Vec<Range> = (0..n).map(range).collect();
+    let bounds = model.bounds(&options.modes);
+    let ranges: Vec<Range> = bounds.iter().map(|bounds| Range { bounds: *bounds, least: f64::MIN_POSITIVE }).collect();
     let evaluations = Cell::new(0);
     let scales = data.iter().filter_map(NonlinearData::scales);
     let [viscosity, rate] = scales.fold([0.0; 2], |[a, b]: [f64; 2], [c, d]| [a.max(c), b.max(d)]);
-    let usual = if options.starts.is_empty() { model.starts([viscosity, rate]) } else { Vec::new() };
+    let usual = if options.starts.is_empty() { model.starts(&options.modes, [viscosity, rate]) } else { Vec::new() };
     let mut ends = Vec::new();
     for start in usual.iter().chain(&options.starts) {
         if start.len() != n {
@@ -222,7 +236,7 @@ pub fn fit_nonlinear_until(
             return Err(FitError::NumberOfValues { model, parameters: n, values });
         }
         let x = ranges.iter().zip(start).map(|(range, value)| range.inward(*value)).collect();
-        let walk = Walk { model, data, ranges: &ranges, evaluations: &evaluations };
+        let walk = Walk { model, modes: &options.modes, data, ranges: &ranges, evaluations: &evaluations };
         if let Some(end) = minimise(walk, x, options.patience.max(1), stop) {
             let squares: f64 = end.state.1.iter().map(|r| r * r).sum();
             ends.push((squares, end));
@@ -237,8 +251,10 @@ pub fn fit_nonlinear_until(
     let same = least * (1.0 + 1e-6) + rows as f64 * 1e-20;
     let starts_that_agree = ends.iter().filter(|end| end.0 <= same).count();
     let (squares, end) = ends.into_iter().next().ok_or_else(|| FitError::NoStart { model: model.name().to_owned() })?;
-    let (x, residuals) = &end.state;
-    let values = end.misfit.parameters(x);
+    let (mut x, residuals) = end.state;
+    let (first, count) = model.places(&options.modes);
+    sort_modes(&mut x[first..first + 2 * count]);
+    let values = end.misfit.parameters(&x);
     let is_at_bound = |k: usize| {
         let [low, high] = ranges[k].bounds;
         if high.is_finite() {
@@ -252,53 +268,44 @@ pub fn fit_nonlinear_until(
         squares_there.is_some_and(|there| there <= squares * (1.0 + 1e-9) + f64::MIN_POSITIVE)
     };
     let at_bound: Vec<bool> = (0..n).map(is_at_bound).collect();
-    let free: Vec<usize> = (0..n).filter(|&k| !at_bound[k]).collect();
-    let degrees_of_freedom = rows - free.len();
-    let variance = if 0 < degrees_of_freedom { squares / degrees_of_freedom as f64 } else { 0.0 };
-    let mut slopes = end.misfit.slopes(x, residuals);
+    let mut slopes = end.misfit.slopes(&x, &residuals);
     for (k, range) in ranges.iter().enumerate() {
         let outward = range.outward(x[k])[1];
         slopes.column_mut(k).iter_mut().for_each(|slope| *slope /= outward);
     }
-    let covariance = Covariance::new(&slopes, &free, variance);
-    let mut sets = Vec::new();
+    let mut series = Vec::new();
     let mut rest = residuals.as_slice();
     for set in data {
         let (these, others) = rest.split_at(set.rows().len());
-        sets.push(these.to_vec());
+        series.push(these);
         rest = others;
     }
-    let autocorrelation = Autocorrelation::of(sets.iter().map(Vec::as_slice)).filter(|_| 1e-9 < variance.sqrt());
-    let quantile = student(options.confidence, degrees_of_freedom)
-        .map(|t| t * autocorrelation.map_or(1.0, |found| found.widening))
-        .filter(|_| 0 < degrees_of_freedom);
-    let parameter = |k: usize| {
-        /// A half width of ln θ beyond which not even the order of magnitude is told.
-        const LOST: f64 = 9.2;
-        let (name, value, bounds) = (model.parameters()[k], values[k], ranges[k].bounds);
-        let none = NonlinearParameter { name, value, standard_error: None, interval: None, state: State::Undetermined };
-        if at_bound[k] {
-            return NonlinearParameter { state: State::AtBound, ..none };
-        }
-        match (covariance.standard_error(k), quantile) {
-            (Some(_), None) => NonlinearParameter { state: State::NoDegreesOfFreedom, ..none },
-            (Some(error), Some(quantile)) if quantile * error < LOST * (value - bounds[0]) => {
-                let interval = Some(interval(value, bounds, quantile * error));
-                NonlinearParameter { standard_error: Some(error), interval, state: State::Determined, ..none }
-            }
-            _ => none,
-        }
-    };
+    let Judgement { parameters, degrees_of_freedom, criteria, autocorrelation } =
+        judged(&values, &bounds, &at_bound, &slopes, &series, options.confidence);
+    let parameters = parameters.into_iter().zip(names).zip(&values).map(|((told, name), value)| NonlinearParameter {
+        name,
+        value: *value,
+        standard_error: told.standard_error,
+        interval: told.interval,
+        state: told.state,
+    });
     Ok(NonlinearFit {
-        fluid: model.fluid(&values)?,
-        parameters: (0..n).map(parameter).collect(),
-        residuals: sets,
+        fluid: model.fluid(&options.modes, &values)?,
+        parameters: parameters.collect(),
+        residuals: series.iter().map(|residuals| residuals.to_vec()).collect(),
         squares,
         degrees_of_freedom,
         autocorrelation,
-        criteria: Criteria::new(rows, n, squares),
+        criteria,
         outcome: if stop() { Outcome::Interrupted } else { end.outcome },
         evaluations: evaluations.get(),
         starts_that_agree,
     })
+}
+
+/// Sorts pairs of a viscosity and a time by their times, the shortest first.
+fn sort_modes(pairs: &mut [f64]) {
+    let mut modes: Vec<[f64; 2]> = pairs.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+    modes.sort_by(|a, b| a[1].total_cmp(&b[1]));
+    pairs.copy_from_slice(modes.as_flattened());
 }

@@ -1,27 +1,23 @@
-//! Viscoelastic fluids by their names, and their answers in each flow.
+//! Viscoelastic fluids by their names, and their parameters.
 
 use core::fmt;
 use core::str::FromStr;
 
-use piola_continuum::Symmetric;
-use piola_continuum::rates::VelocityGradient;
 use piola_fluids::{
-    AnyFluid, ConvectedMaxwell, DifferentialFluid, ExponentialDamping, ExponentialPhanThienTanner, Extension,
-    FluidsError, Following, Giesekus, Kbkz, LinearPhanThienTanner, Mode, OldroydB, RationalDamping, Relaxation,
-    StressRate, ViscometricFluid,
+    AnyFluid, ExponentialDamping, ExponentialPhanThienTanner, Giesekus, Kbkz, LinearPhanThienTanner, Mode, Modes,
+    OldroydB, RationalDamping, Relaxation, UpperConvectedMaxwell,
 };
 
+use super::answers::{differential, integral, linear};
 use super::data::{NonlinearData, NonlinearFlow, ShearResponse};
 use crate::FitError;
 
-/// Tolerance of the stresses of start-up.
-const TOLERANCE: f64 = 1e-12;
-/// Relaxation times after which the flow is steady to 10⁻¹⁷: a search that tries short times would integrate for ever.
-const SETTLED: f64 = 40.0;
+/// Most modes that are fitted.
+const MOST: usize = 6;
 
-/// A viscoelastic fluid of one mode with unknown parameters.
+/// A viscoelastic fluid with unknown parameters.
 ///
-/// | name | fluid | parameters |
+/// | name | fluid | parameters, of one mode |
 /// |---|---|---|
 /// | `oldroyd-b` | [`OldroydB`] | `solvent_viscosity`, `polymer_viscosity`, `time` |
 /// | `giesekus` | [`Giesekus`] | the same, and `mobility` ≤ ½ |
@@ -29,7 +25,7 @@ const SETTLED: f64 = 40.0;
 /// | `kbkz-rational` | [`Kbkz`] with [`RationalDamping`] | `viscosity`, `time`, `alpha`, `beta` ≤ 1 |
 /// | `kbkz-exponential` | [`Kbkz`] with [`ExponentialDamping`] | `viscosity`, `time`, `strength`, `beta` ≤ 1 |
 ///
-/// In shear `beta` of both K-BKZ fluids does nothing.
+/// Several modes ([`RelaxationModes`]) share the solvent, and what stands after `time`. In shear `beta` of both K-BKZ fluids does nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NonlinearModel {
@@ -45,6 +41,65 @@ pub enum NonlinearModel {
     KbkzRational,
     /// K-BKZ with Wagner's damping.
     KbkzExponential,
+}
+
+/// The relaxation modes of a viscoelastic fluid: so many with unknown viscosities and times, or a spectrum that is known.
+///
+/// # Example
+/// ```
+/// use piola_fit::nonlinear::{NonlinearModel, RelaxationModes};
+/// use piola_fluids::Relaxation;
+/// let fitted = NonlinearModel::Giesekus.parameters(&RelaxationModes::Fitted(2));
+/// assert_eq!(fitted[3..], ["polymer_viscosity2", "time2", "mobility"]);
+/// let given = RelaxationModes::Given(vec![Relaxation { viscosity: 10.0, time: 1.0 }]);
+/// assert_eq!(NonlinearModel::Giesekus.parameters(&given), ["solvent_viscosity", "mobility"]);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+pub enum RelaxationModes {
+    /// So many modes, 1 to 6; each has a viscosity and a time among the parameters.
+    Fitted(usize),
+    /// Viscosities and times that are held, as those of a relaxation spectrum: ηᵢ = gᵢ λᵢ.
+    Given(Vec<Relaxation>),
+}
+
+impl Default for RelaxationModes {
+    fn default() -> Self {
+        Self::Fitted(1)
+    }
+}
+
+impl RelaxationModes {
+    /// Refuses what is no set of modes.
+    pub(super) fn check(&self) -> Result<(), FitError> {
+        match self {
+            Self::Fitted(count) if !(1..=MOST).contains(count) => Err(FitError::SeriesLength { value: *count }),
+            Self::Fitted(_) => Ok(()),
+            Self::Given(spectrum) => {
+                let mode = |mode: &Relaxation| UpperConvectedMaxwell::new(mode.viscosity, mode.time);
+                Modes::new(spectrum.iter().map(mode).collect::<Result<_, _>>()?)?;
+                Ok(())
+            }
+        }
+    }
+
+    /// Modes with viscosities and times among the parameters.
+    const fn fitted(&self) -> usize {
+        match self {
+            Self::Fitted(count) => *count,
+            Self::Given(_) => 0,
+        }
+    }
+}
+
+/// A fluid made of parameters, by its modes.
+enum Made {
+    OldroydB(Vec<OldroydB>),
+    Giesekus(Vec<Giesekus>),
+    LinearPtt(Vec<LinearPhanThienTanner>),
+    ExponentialPtt(Vec<ExponentialPhanThienTanner>),
+    KbkzRational(Kbkz<RationalDamping>),
+    KbkzExponential(Kbkz<ExponentialDamping>),
 }
 
 impl NonlinearModel {
@@ -71,98 +126,194 @@ impl NonlinearModel {
         }
     }
 
-    /// The names of its parameters, in order.
+    /// Whether it has a second normal stress difference.
     #[must_use]
-    pub const fn parameters(self) -> &'static [&'static str] {
+    pub const fn has_second_normal_stress(self) -> bool {
+        matches!(self, Self::Giesekus)
+    }
+
+    /// Whether it has a solvent: K-BKZ fluids have none.
+    const fn has_solvent(self) -> bool {
+        !matches!(self, Self::KbkzRational | Self::KbkzExponential)
+    }
+
+    /// The parameters that all modes share, with their upper bounds.
+    const fn shared(self) -> &'static [(&'static str, f64)] {
         match self {
-            Self::OldroydB => &["solvent_viscosity", "polymer_viscosity", "time"],
-            Self::Giesekus => &["solvent_viscosity", "polymer_viscosity", "time", "mobility"],
-            Self::LinearPtt | Self::ExponentialPtt => {
-                &["solvent_viscosity", "polymer_viscosity", "time", "extensibility"]
-            }
-            Self::KbkzRational => &["viscosity", "time", "alpha", "beta"],
-            Self::KbkzExponential => &["viscosity", "time", "strength", "beta"],
+            Self::OldroydB => &[],
+            Self::Giesekus => &[("mobility", 0.5)],
+            Self::LinearPtt | Self::ExponentialPtt => &[("extensibility", f64::INFINITY)],
+            Self::KbkzRational => &[("alpha", f64::INFINITY), ("beta", 1.0)],
+            Self::KbkzExponential => &[("strength", f64::INFINITY), ("beta", 1.0)],
         }
     }
 
-    /// The bounds of a parameter.
-    pub(super) const fn bounds(self, parameter: usize) -> [f64; 2] {
-        match (self, parameter) {
-            (Self::Giesekus, 3) => [0.0, 0.5],
-            (Self::KbkzRational | Self::KbkzExponential, 3) => [0.0, 1.0],
-            _ => [0.0, f64::INFINITY],
+    /// The names of its parameters, in order; those of several modes are numbered from 1.
+    #[must_use]
+    pub fn parameters(self, modes: &RelaxationModes) -> Vec<String> {
+        let mut names: Vec<String> = self.has_solvent().then(|| "solvent_viscosity".to_owned()).into_iter().collect();
+        let viscosity = if self.has_solvent() { "polymer_viscosity" } else { "viscosity" };
+        let count = modes.fitted();
+        for k in 1..=count {
+            let number = if count == 1 { String::new() } else { k.to_string() };
+            names.extend([format!("{viscosity}{number}"), format!("time{number}")]);
         }
+        names.extend(self.shared().iter().map(|(name, _)| (*name).to_owned()));
+        names
+    }
+
+    /// The place of the first viscosity of a mode, and the number of modes that are fitted.
+    pub(super) fn places(self, modes: &RelaxationModes) -> (usize, usize) {
+        (usize::from(self.has_solvent()), modes.fitted())
+    }
+
+    /// The bounds of each parameter.
+    pub(super) fn bounds(self, modes: &RelaxationModes) -> Vec<[f64; 2]> {
+        let (first, count) = self.places(modes);
+        let positive = core::iter::repeat_n([0.0, f64::INFINITY], first + 2 * count);
+        positive.chain(self.shared().iter().map(|(_, high)| [0.0, *high])).collect()
     }
 
     /// Starts of a search about a viscosity and a rate.
-    pub(super) fn starts(self, [viscosity, rate]: [f64; 2]) -> Vec<Vec<f64>> {
+    pub(super) fn starts(self, modes: &RelaxationModes, [viscosity, rate]: [f64; 2]) -> Vec<Vec<f64>> {
+        let count = modes.fitted();
+        // What is held needs no guesses of its times.
+        let guesses: &[f64] = if count == 0 { &[1.0] } else { &[0.3, 3.0, 30.0] };
         let mut starts = Vec::new();
-        for weissenberg in [0.3, 3.0, 30.0] {
-            let time = weissenberg / rate;
+        for weissenberg in guesses {
             for last in [0.3, 0.03] {
-                starts.push(match self {
-                    Self::OldroydB => vec![0.3 * last * viscosity, viscosity, time],
-                    Self::Giesekus | Self::LinearPtt | Self::ExponentialPtt => {
-                        vec![0.1 * viscosity, viscosity, time, last]
-                    }
-                    Self::KbkzRational => vec![viscosity, time, 3.0 / last, 0.3],
-                    Self::KbkzExponential => vec![viscosity, time, last, 0.3],
-                });
+                let solvent = if self == Self::OldroydB { 0.3 * last } else { 0.1 };
+                let mut start = if self.has_solvent() { vec![solvent * viscosity] } else { Vec::new() };
+                for k in 0..count {
+                    // A decade apart, about the middle one.
+                    let time = weissenberg / rate * 10.0_f64.powf(k as f64 - 0.5 * (count as f64 - 1.0));
+                    start.extend([viscosity / count as f64, time]);
+                }
+                match self {
+                    Self::OldroydB => {}
+                    Self::Giesekus | Self::LinearPtt | Self::ExponentialPtt => start.push(last),
+                    Self::KbkzRational => start.extend([3.0 / last, 0.3]),
+                    Self::KbkzExponential => start.extend([last, 0.3]),
+                }
+                starts.push(start);
             }
         }
         starts
     }
 
-    /// The fluid with these parameters.
-    ///
-    /// # Errors
-    /// [`FitError::NumberOfValues`]; [`FitError::Fluids`] for parameters out of bounds.
-    pub fn fluid(self, parameters: &[f64]) -> Result<AnyFluid, FitError> {
-        let wrong = || FitError::NumberOfValues {
-            model: self.name().to_owned(),
-            parameters: self.parameters().len(),
-            values: parameters.len(),
+    fn made(self, modes: &RelaxationModes, parameters: &[f64]) -> Result<Made, FitError> {
+        let (first, count) = self.places(modes);
+        let expected = first + 2 * count + self.shared().len();
+        if parameters.len() != expected {
+            let (model, values) = (self.name().to_owned(), parameters.len());
+            return Err(FitError::NumberOfValues { model, parameters: expected, values });
+        }
+        let (own, shared) = parameters[first..].split_at(2 * count);
+        let memory: Vec<Relaxation> = match modes {
+            RelaxationModes::Given(spectrum) => spectrum.clone(),
+            RelaxationModes::Fitted(_) => {
+                own.chunks_exact(2).map(|pair| Relaxation { viscosity: pair[0], time: pair[1] }).collect()
+            }
         };
-        let memory = |viscosity, time| vec![Relaxation { viscosity, time }];
-        Ok(match (self, parameters) {
-            (Self::OldroydB, &[solvent, polymer, time]) => OldroydB::new(solvent, polymer, time)?.into(),
-            (Self::Giesekus, &[solvent, polymer, time, alpha]) => Giesekus::new(solvent, polymer, time, alpha)?.into(),
-            (Self::LinearPtt, &[solvent, polymer, time, epsilon]) => {
-                LinearPhanThienTanner::new(solvent, polymer, time, epsilon)?.into()
+        /// Modes of a constructor; the solvent is beside the first.
+        macro_rules! modes {
+            ($fluid:ident $(, $shared:expr)?) => {
+                memory
+                    .iter()
+                    .enumerate()
+                    .map(|(k, mode)| {
+                        let solvent = if k == 0 { parameters[0] } else { 0.0 };
+                        $fluid::new(solvent, mode.viscosity, mode.time $(, $shared)?)
+                    })
+                    .collect::<Result<_, _>>()?
+            };
+        }
+        Ok(match self {
+            Self::OldroydB => Made::OldroydB(modes!(OldroydB)),
+            Self::Giesekus => Made::Giesekus(modes!(Giesekus, shared[0])),
+            Self::LinearPtt => Made::LinearPtt(modes!(LinearPhanThienTanner, shared[0])),
+            Self::ExponentialPtt => Made::ExponentialPtt(modes!(ExponentialPhanThienTanner, shared[0])),
+            Self::KbkzRational => Made::KbkzRational(Kbkz::new(memory, RationalDamping::new(shared[0], shared[1])?)?),
+            Self::KbkzExponential => {
+                Made::KbkzExponential(Kbkz::new(memory, ExponentialDamping::new(shared[0], shared[1])?)?)
             }
-            (Self::ExponentialPtt, &[solvent, polymer, time, epsilon]) => {
-                ExponentialPhanThienTanner::new(solvent, polymer, time, epsilon)?.into()
-            }
-            (Self::KbkzRational, &[viscosity, time, alpha, beta]) => {
-                Kbkz::new(memory(viscosity, time), RationalDamping::new(alpha, beta)?)?.into()
-            }
-            (Self::KbkzExponential, &[viscosity, time, strength, beta]) => {
-                Kbkz::new(memory(viscosity, time), ExponentialDamping::new(strength, beta)?)?.into()
-            }
-            _ => return Err(wrong()),
         })
     }
 
+    /// The fluid with these parameters; of one mode it is that fluid, of several their [`Modes`].
+    ///
+    /// # Errors
+    /// [`FitError::NumberOfValues`]; [`FitError::SeriesLength`] of modes; [`FitError::Fluids`] for parameters out of bounds.
+    pub fn fluid(self, modes: &RelaxationModes, parameters: &[f64]) -> Result<AnyFluid, FitError> {
+        fn one_or_several<M: Mode>(modes: Vec<M>) -> Result<AnyFluid, FitError>
+        where
+            AnyFluid: From<M> + From<Modes<M>>,
+        {
+            Ok(match modes.as_slice() {
+                [only] => only.clone().into(),
+                _ => Modes::new(modes)?.into(),
+            })
+        }
+        modes.check()?;
+        match self.made(modes, parameters)? {
+            Made::OldroydB(modes) => one_or_several(modes),
+            Made::Giesekus(modes) => one_or_several(modes),
+            Made::LinearPtt(modes) => one_or_several(modes),
+            Made::ExponentialPtt(modes) => one_or_several(modes),
+            Made::KbkzRational(fluid) => Ok(fluid.into()),
+            Made::KbkzExponential(fluid) => Ok(fluid.into()),
+        }
+    }
+
+    /// The answers of the fluid with these parameters in a flow, at each drive: the shear or extension rate of a steady flow, the time
+    /// of a start-up. Stresses, Pa.
+    ///
+    /// # Errors
+    /// As [`fluid`](Self::fluid); [`FitError::RateNotPositive`], [`FitError::RowNotPositive`] for a rate or a drive that is not positive
+    /// and finite.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_fit::nonlinear::{NonlinearFlow, NonlinearModel, RelaxationModes, ShearResponse};
+    /// let flow = NonlinearFlow::SteadyShear(ShearResponse::ShearStress);
+    /// let boger = NonlinearModel::OldroydB.answers(&RelaxationModes::Fitted(1), &[1.0, 2.0, 4.0], flow, &[10.0])?;
+    /// assert_eq!(boger, [30.0]); // (1 + 2) k
+    /// # Ok::<(), piola_fit::FitError>(())
+    /// ```
+    pub fn answers(
+        self,
+        modes: &RelaxationModes,
+        parameters: &[f64],
+        flow: NonlinearFlow,
+        drives: &[f64],
+    ) -> Result<Vec<f64>, FitError> {
+        modes.check()?;
+        let mut order: Vec<usize> = (0..drives.len()).collect();
+        order.sort_by(|a, b| drives[*a].total_cmp(&drives[*b]));
+        let sign = flow.shear_response().map_or(1.0, ShearResponse::sign);
+        let data = NonlinearData::new(flow, drives.iter().map(|drive| [*drive, sign]).collect())?;
+        let mut sorted = Vec::with_capacity(drives.len());
+        self.answer(modes, parameters, &data, &mut sorted)?;
+        let mut answers = vec![0.0; drives.len()];
+        order.into_iter().zip(sorted).for_each(|(place, answer)| answers[place] = answer);
+        Ok(answers)
+    }
+
     /// The answers of the fluid with these parameters in the rows of a flow, appended.
-    pub(super) fn answers(self, parameters: &[f64], data: &NonlinearData, out: &mut Vec<f64>) -> Result<(), FitError> {
-        match self.fluid(parameters)? {
-            AnyFluid::OldroydB(fluid) => match data.flow() {
-                // Exact.
-                NonlinearFlow::ShearStartUp { shear_rate, response } => {
-                    for [t, _] in data.rows() {
-                        let stresses = fluid.start_up(shear_rate, *t)?;
-                        out.push(of_shear(response, stresses.shear, stresses.first));
-                    }
-                    Ok(())
-                }
-                _ => differential(&fluid, data, out),
-            },
-            AnyFluid::Giesekus(fluid) => differential(&fluid, data, out),
-            AnyFluid::LinearPhanThienTanner(fluid) => differential(&fluid, data, out),
-            AnyFluid::ExponentialPhanThienTanner(fluid) => differential(&fluid, data, out),
-            AnyFluid::KbkzRational(fluid) => integral(&fluid, data, out),
-            AnyFluid::KbkzExponential(fluid) => integral(&fluid, data, out),
-            _ => Ok(()),
+    pub(super) fn answer(
+        self,
+        modes: &RelaxationModes,
+        parameters: &[f64],
+        data: &NonlinearData,
+        out: &mut Vec<f64>,
+    ) -> Result<(), FitError> {
+        match self.made(modes, parameters)? {
+            Made::OldroydB(modes) => linear(&modes, data, out),
+            Made::Giesekus(modes) => differential(&modes, data, out),
+            Made::LinearPtt(modes) => differential(&modes, data, out),
+            Made::ExponentialPtt(modes) => differential(&modes, data, out),
+            Made::KbkzRational(fluid) => integral(&fluid, data, out),
+            Made::KbkzExponential(fluid) => integral(&fluid, data, out),
         }
     }
 }
@@ -180,107 +331,4 @@ impl FromStr for NonlinearModel {
         let found = Self::ALL.into_iter().find(|model| model.name() == text);
         found.ok_or_else(|| FitError::UnknownNonlinearModel { name: text.to_owned() })
     }
-}
-
-fn of_shear(response: ShearResponse, shear: f64, first: f64) -> f64 {
-    match response {
-        ShearResponse::ShearStress => shear,
-        ShearResponse::FirstNormalStressDifference => first,
-    }
-}
-
-/// τ or N₁ in steady shear.
-fn steady_shear(fluid: &impl ViscometricFluid, response: ShearResponse, rate: f64) -> f64 {
-    match response {
-        ShearResponse::ShearStress => fluid.shear_stress(rate),
-        ShearResponse::FirstNormalStressDifference => fluid.first_normal_stress_difference(rate),
-    }
-}
-
-/// The velocity gradient of an extension.
-fn extending(extension: Extension, rate: f64) -> [[f64; 3]; 3] {
-    let [first, second, third] = extension.rates(rate);
-    [[first, 0.0, 0.0], [0.0, second, 0.0], [0.0, 0.0, third]]
-}
-
-/// The longest λ, s.
-fn slowest(fluid: &impl DifferentialFluid) -> f64 {
-    fluid.modes().iter().map(Mode::time).fold(0.0, f64::max)
-}
-
-fn differential<F: DifferentialFluid<Mode: StressRate> + ViscometricFluid>(
-    fluid: &F,
-    data: &NonlinearData,
-    out: &mut Vec<f64>,
-) -> Result<(), FitError> {
-    match data.flow() {
-        NonlinearFlow::SteadyShear(response) => {
-            out.extend(data.rows().iter().map(|row| steady_shear(fluid, response, row[0])));
-        }
-        NonlinearFlow::SteadyExtension(extension) => {
-            for [rate, _] in data.rows() {
-                out.push(extension.difference(fluid.extensional_stress(extension.rates(*rate))?));
-            }
-        }
-        NonlinearFlow::ShearStartUp { shear_rate, response } => {
-            let mut motion = Following::from_rest(fluid, TOLERANCE)?;
-            let gradient = [[0.0; 3], [shear_rate, 0.0, 0.0], [0.0; 3]];
-            for [t, _] in data.rows() {
-                if SETTLED * slowest(fluid) < *t {
-                    out.push(steady_shear(fluid, response, shear_rate));
-                    continue;
-                }
-                let [t11, t22, _, t12, ..] = motion.advance(|_| gradient, *t)?.components;
-                out.push(of_shear(response, t12, t22 - t11));
-            }
-        }
-        NonlinearFlow::ExtensionStartUp { extension, rate } => {
-            let mut motion = Following::from_rest(fluid, TOLERANCE)?;
-            let gradient = extending(extension, rate);
-            let rates = extension.rates(rate);
-            let fastest = rates.iter().fold(0.0, |most: f64, rate| most.max(*rate));
-            for [t, _] in data.rows() {
-                // Stresses approach their end as e^(−(1 − 2 λ ε̇) t/λ).
-                let time = slowest(fluid);
-                if SETTLED * time < (1.0 - 2.0 * time * fastest) * t {
-                    out.push(extension.difference(fluid.extensional_stress(rates)?));
-                    continue;
-                }
-                let [t11, t22, t33, ..] = motion.advance(|_| gradient, *t)?.components;
-                out.push(extension.difference([t11, t22, t33]));
-            }
-        }
-    }
-    Ok(())
-}
-
-fn integral<H: piola_fluids::Damping>(
-    fluid: &Kbkz<H>,
-    data: &NonlinearData,
-    out: &mut Vec<f64>,
-) -> Result<(), FitError> {
-    for [drive, _] in data.rows() {
-        out.push(match data.flow() {
-            NonlinearFlow::SteadyShear(response) => steady_shear(fluid, response, *drive),
-            NonlinearFlow::ShearStartUp { shear_rate, response } => {
-                let stresses = fluid.start_up(shear_rate, *drive)?.value;
-                of_shear(response, stresses.shear, stresses.first)
-            }
-            NonlinearFlow::SteadyExtension(extension) => {
-                let gradient = VelocityGradient::from_rows(extending(extension, *drive)).map_err(FluidsError::from)?;
-                let [t11, t22, t33, ..] = fluid.steady_stress(&gradient)?.value.components;
-                extension.difference([t11, t22, t33])
-            }
-            NonlinearFlow::ExtensionStartUp { extension, rate } => {
-                // Finger's tensor of the past: exp(2 s D).
-                let past = |s: f64| {
-                    let [a, b, c] = extension.rates(rate).map(|rate| (2.0 * s * rate).exp());
-                    Symmetric { components: [a, b, c, 0.0, 0.0, 0.0] }
-                };
-                let [t11, t22, t33, ..] = fluid.stress_of_history(past, *drive)?.value.components;
-                extension.difference([t11, t22, t33])
-            }
-        });
-    }
-    Ok(())
 }

@@ -28,6 +28,8 @@ use crate::statistics::{Autocorrelation, Criteria};
 use crate::{FitError, Outcome};
 use test::{Output, Point};
 
+use model::oblique_energy;
+
 pub use model::SidesModel;
 pub use test::{Loading, SidesTest};
 
@@ -198,6 +200,14 @@ struct Problem {
     ranges: Vec<Range>,
 }
 
+/// Free sides that carry no stress.
+enum Sides {
+    /// The logarithm of the one that is free, and ∂²W by it.
+    One { side: f64, stiffness: f64 },
+    /// The logarithm of the width of a strip and its shear, and the inverse of ∂²W by them.
+    Strip { angle: f64, values: [f64; 2], inverse: [[f64; 2]; 2] },
+}
+
 /// Residuals, and their derivatives row by row.
 type Rows = (Vec<f64>, DMatrix<f64>);
 
@@ -236,7 +246,7 @@ impl Problem {
         let mut residuals = Vec::with_capacity(self.rows());
         let mut slopes = DMatrix::zeros(self.rows(), theta.len());
         let twice: Vec<Dual<Dual<f64>>> = theta.iter().map(|x| Dual::constant(Dual::constant(*x))).collect();
-        let sides: Vec<[f64; 2]> = self.points.iter().map(|point| self.side(point, &twice)).collect::<Option<_>>()?;
+        let sides: Vec<Sides> = self.points.iter().map(|point| self.sides(point, &twice)).collect::<Option<_>>()?;
         for begin in (0..theta.len()).step_by(CHUNK) {
             let lifted: Vec<Dual<Gradient<f64, CHUNK>>> = theta
                 .iter()
@@ -244,21 +254,38 @@ impl Problem {
                 .map(|(k, x)| Dual::constant(Gradient::variable(*x, if k < begin { CHUNK } else { k - begin })))
                 .collect();
             let mut row = 0;
-            for (point, [side, stiffness]) in self.points.iter().zip(&sides) {
+            for (point, sides) in self.points.iter().zip(&sides) {
                 let mut at = point.base.map(Gradient::<f64, CHUNK>::lit);
-                if let Some(free) = point.free {
-                    let there = along(at, free, Gradient::lit(*side));
-                    // At the root the side moves by −(∂²W/∂y∂θ)/(∂²W/∂y²).
-                    let mut moved = -(self.slope(there, free, &lifted) / Gradient::lit(*stiffness));
-                    moved.value = *side;
-                    at = along(at, free, moved);
+                match (sides, point.free) {
+                    (Sides::One { side, stiffness }, Some(free)) => {
+                        let there = along(at, free, Gradient::lit(*side));
+                        // At the root the side moves by −(∂²W/∂y∂θ)/(∂²W/∂y²).
+                        let mut moved = -(self.slope(there, free, &lifted) / Gradient::lit(*stiffness));
+                        moved.value = *side;
+                        at = along(at, free, moved);
+                    }
+                    (Sides::Strip { angle, values, inverse }, _) => {
+                        let there = [at[0], Gradient::lit(values[0]), Gradient::lit(values[1])];
+                        let slopes = [1, 2].map(|k| Self::oblique_slope(*angle, there, k, &lifted));
+                        for (k, value) in values.iter().enumerate() {
+                            let [first, second] = inverse[k].map(Gradient::lit);
+                            let mut moved = -(first * slopes[0] + second * slopes[1]);
+                            moved.value = *value;
+                            at[k + 1] = moved;
+                        }
+                    }
+                    _ => {}
                 }
                 for (output, measured, scale) in &point.outputs {
-                    let answer = match output {
-                        Output::Stress { direction, factor } => {
+                    let answer = match (output, point.oblique) {
+                        (Output::Stress { factor, .. }, Some(angle)) => {
+                            Self::oblique_slope(angle, at, 0, &lifted) * Gradient::lit(*factor)
+                        }
+                        (Output::Stress { direction, factor }, None) => {
                             self.slope(at, *direction, &lifted) * Gradient::lit(*factor)
                         }
-                        Output::Lateral { axis } => at[*axis].exp(),
+                        (Output::Lateral { .. }, Some(_)) => at[1].exp(),
+                        (Output::Lateral { axis }, None) => at[*axis].exp(),
                     };
                     if begin == 0 {
                         residuals.push((answer.value - measured) / scale);
@@ -278,6 +305,57 @@ impl Problem {
     fn slope<T: Real>(&self, at: [T; 3], direction: [f64; 3], parameters: &[Dual<T>]) -> T {
         let varied = [0, 1, 2].map(|a| Dual::new(at[a], T::lit(direction[a])));
         self.model.energy(varied, parameters).tangent
+    }
+
+    /// ∂W of a strip by one of its coordinates.
+    fn oblique_slope<T: Real>(angle: f64, at: [T; 3], k: usize, parameters: &[Dual<T>]) -> T {
+        let varied = [0, 1, 2].map(|a| Dual::new(at[a], if a == k { T::one() } else { T::zero() }));
+        oblique_energy(angle, varied, parameters).tangent
+    }
+
+    /// The free sides of a point.
+    fn sides(&self, point: &Point, parameters: &[Dual<Dual<f64>>]) -> Option<Sides> {
+        match point.oblique {
+            Some(angle) => Self::strip(angle, point, parameters),
+            None => self.side(point, parameters).map(|[side, stiffness]| Sides::One { side, stiffness }),
+        }
+    }
+
+    /// Width and shear of a strip, by Newton's method from the width of a body without fibres.
+    fn strip(angle: f64, point: &Point, parameters: &[Dual<Dual<f64>>]) -> Option<Sides> {
+        /// The longest step.
+        const LONGEST: f64 = 0.3;
+        let mut values = [point.start, 0.0];
+        for _ in 0..100 {
+            let seed = |a: usize, k: usize| if a == k { 1.0 } else { 0.0 };
+            let second = |i: usize, j: usize| {
+                let at = [point.base[0], values[0], values[1]];
+                let varied = [0, 1, 2].map(|a| Dual::new(Dual::new(at[a], seed(a, j)), Dual::lit(seed(a, i))));
+                oblique_energy(angle, varied, parameters)
+            };
+            let [aa, ab, bb] = [second(1, 1), second(1, 2), second(2, 2)];
+            let (slopes, [a, mixed, b]) =
+                ([aa.value.tangent, bb.value.tangent], [aa, ab, bb].map(|energy| energy.tangent.tangent));
+            let determinant = a * b - mixed * mixed;
+            let is_minimum = 0.0 < a && 0.0 < determinant;
+            // Where W is not convex it falls along the slopes.
+            let step = if is_minimum {
+                [(mixed * slopes[1] - b * slopes[0]) / determinant, (mixed * slopes[0] - a * slopes[1]) / determinant]
+            } else {
+                [-slopes[0] / a.abs(), -slopes[1] / b.abs()]
+            };
+            if !step.iter().all(|step| step.is_finite()) {
+                return None;
+            }
+            for (value, step) in values.iter_mut().zip(step) {
+                *value += step.clamp(-LONGEST, LONGEST);
+            }
+            if step.iter().zip(values).all(|(step, value)| step.abs() <= 1e-15 * (1.0 + value.abs())) {
+                let inverse = [[b, -mixed], [-mixed, a]].map(|row| row.map(|x| x / determinant));
+                return is_minimum.then_some(Sides::Strip { angle, values, inverse });
+            }
+        }
+        None
     }
 
     /// The logarithm of the free side, and ∂²W by it: Newton's method, from where sides of a body of constant volume would be.

@@ -72,16 +72,10 @@ impl SidesModel {
                 energy
             }
             Self::HolzapfelGasserOgden => {
-                let [mu, k1, k2, angle, dispersion] = [0, 1, 2, 3, 4].map(|k| parameters[k]);
-                let (one, two, three) = (T::one(), T::lit(2.0), T::lit(3.0));
-                let [a, b, c] = logarithms.map(|x| (two * x).exp_m1());
-                let (sine, cosine) = angle.sin_cos();
-                let along = cosine * cosine * a + sine * sine * b;
-                let first = a + b + c;
-                let strain = dispersion * first + (one - three * dispersion) * along;
-                let tension = T::select(T::zero().less_than(strain), strain, T::zero());
+                let [a, b, c] = logarithms.map(|x| (T::lit(2.0) * x).exp_m1());
+                let (sine, cosine) = parameters[3].sin_cos();
                 // Both families have the same strain.
-                T::lit(0.5) * mu * first + k1 / k2 * (k2 * tension * tension).exp_m1()
+                fibrous(a + b + c, [cosine * cosine * a + sine * sine * b; 2], parameters)
             }
         }
     }
@@ -152,6 +146,31 @@ impl SidesModel {
             }
         })
     }
+}
+
+/// W of a strip that was cut at an angle from axis 1 and is pulled along itself, at the logarithms of its stretch and of its width,
+/// and at its shear s: F = ((λ, s), (0, m)) in the plane, 1/(λ m) across it. It is that of Holzapfel, Gasser and Ogden's law; a foam has no directions.
+pub(super) fn oblique_energy<T: Real>(from_axis: f64, [x, width, shear]: [T; 3], parameters: &[T]) -> T {
+    let two = T::lit(2.0);
+    let (a, b) = ((two * x).exp_m1(), (two * width).exp_m1() + shear * shear);
+    let (mixed, across) = (x.exp() * shear, (-two * (x + width)).exp_m1());
+    let family = |sign: f64| {
+        let (sine, cosine) = (T::lit(sign) * parameters[3] - T::lit(from_axis)).sin_cos();
+        cosine * cosine * a + two * cosine * sine * mixed + sine * sine * b
+    };
+    fibrous(a + b + across, [family(1.0), family(-1.0)], parameters)
+}
+
+/// W of Holzapfel, Gasser and Ogden's law at I₁ − 3 and at I₄ − 1 of both families.
+fn fibrous<T: Real>(first: T, along: [T; 2], parameters: &[T]) -> T {
+    let [mu, k1, k2, dispersion] = [0, 1, 2, 4].map(|k| parameters[k]);
+    let (one, half) = (T::one(), T::lit(0.5));
+    let family = |along: T| {
+        let strain = dispersion * first + (one - T::lit(3.0) * dispersion) * along;
+        let tension = T::select(T::zero().less_than(strain), strain, T::zero());
+        (k2 * tension * tension).exp_m1()
+    };
+    half * mu * first + half * k1 / k2 * (family(along[0]) + family(along[1]))
 }
 
 impl fmt::Display for SidesModel {

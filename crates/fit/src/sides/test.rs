@@ -62,6 +62,8 @@ impl Loading {
 pub struct SidesTest {
     name: String,
     loading: Loading,
+    /// Of a strip, from axis 1, radians.
+    angle: f64,
     rows: Vec<(f64, f64, Option<f64>)>,
 }
 
@@ -81,6 +83,8 @@ pub(super) struct Point {
     pub(super) free: Option<[f64; 3]>,
     /// Where the search for the sides starts.
     pub(super) start: f64,
+    /// The angle of a strip that shears, radians: its width and its shear are free instead.
+    pub(super) oblique: Option<f64>,
     /// Output, measured value and scale.
     pub(super) outputs: Vec<(Output, f64, f64)>,
 }
@@ -111,7 +115,34 @@ impl SidesTest {
                 return Err(FitError::StressNotFinite { test: name, index, value: stress });
             }
         }
-        Ok(Self { name, loading, rows: rows.to_vec() })
+        Ok(Self { name, loading, angle: 0.0, rows: rows.to_vec() })
+    }
+
+    /// Of a strip that was cut at an angle from axis 1 in the plane 1–2, radians, and is pulled along itself: rows of its stretch, its
+    /// stress and the stretch of its width. Its ends are free to shear: a body with fibres does.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); [`FitError::AngleNotFinite`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_fit::sides::SidesTest;
+    /// let strip = SidesTest::strip("45°", core::f64::consts::FRAC_PI_4, &[(1.1, 0.3, None)])?;
+    /// assert_eq!(strip.angle(), core::f64::consts::FRAC_PI_4);
+    /// # Ok::<(), piola_fit::FitError>(())
+    /// ```
+    pub fn strip(name: impl Into<String>, angle: f64, rows: &[(f64, f64, Option<f64>)]) -> Result<Self, FitError> {
+        let test = Self::new(name, Loading::Uniaxial, rows)?;
+        if !angle.is_finite() {
+            return Err(FitError::AngleNotFinite { test: test.name, value: angle });
+        }
+        Ok(Self { angle, ..test })
+    }
+
+    /// The angle of a strip from axis 1, radians; zero of other tests.
+    #[must_use]
+    pub const fn angle(&self) -> f64 {
+        self.angle
     }
 
     /// Its name.
@@ -181,7 +212,9 @@ impl SidesTest {
                 if let Some(measured) = lateral {
                     outputs.push((Output::Lateral { axis }, measured, side_scale));
                 }
-                Point { base, free, start: if keeps { -0.5 * x } else { 0.0 }, outputs }
+                // A foam has no directions.
+                let oblique = (keeps && 0.0 < self.angle.abs()).then_some(self.angle);
+                Point { base, free, start: if keeps { -0.5 * x } else { 0.0 }, oblique, outputs }
             })
             .collect())
     }

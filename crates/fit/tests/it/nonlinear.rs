@@ -2,10 +2,12 @@
 
 use piola_fit::FitError;
 use piola_fit::nonlinear::{
-    Extension, NonlinearData, NonlinearFlow, NonlinearModel, Options, ShearResponse, State, fit_nonlinear,
+    Extension, NonlinearData, NonlinearFlow, NonlinearModel, Options, RelaxationModes, ShearResponse, State,
+    fit_nonlinear,
 };
 use piola_fluids::{
-    AnyFluid, DifferentialFluid, Extension as Kind, Giesekus, OldroydB, Parameters, ViscometricFluid, follow,
+    AnyFluid, DifferentialFluid, Extension as Kind, Giesekus, Modes, OldroydB, Parameters, Relaxation,
+    ViscometricFluid, follow,
 };
 use piola_testkit::{Tol, assert_each_close};
 
@@ -97,7 +99,7 @@ fn differential_fluids_are_found_again_from_exact_flows() -> Result<(), FitError
         (NonlinearModel::LinearPtt, vec![0.5, 20.0, 1.5, 0.1]),
         (NonlinearModel::ExponentialPtt, vec![0.5, 20.0, 1.5, 0.1]),
     ] {
-        let fluid = model.fluid(&exact)?;
+        let fluid = model.fluid(&RelaxationModes::Fitted(1), &exact)?;
         let data = flows(|flow, drive| answer(&fluid, flow, drive));
         assert_each_close(model.name(), &values(model, &data, Some(&exact)), &exact, FOUND);
         // Steady shear, steady extension and one start-up tell all from afar.
@@ -153,7 +155,7 @@ fn integral_fluids_are_found_again_from_shear_and_extension() -> Result<(), FitE
         (NonlinearModel::KbkzRational, vec![20.0, 1.5, 4.0, 0.3]),
         (NonlinearModel::KbkzExponential, vec![20.0, 1.5, 0.3, 0.4]),
     ] {
-        let fluid = model.fluid(&exact)?;
+        let fluid = model.fluid(&RelaxationModes::Fitted(1), &exact)?;
         macro_rules! stress {
             ($flow:expr, $drive:expr, $fluid:expr) => {
                 match $flow {
@@ -265,4 +267,73 @@ fn impossible_flows_and_unknown_fluids_are_refused_by_name() -> Result<(), FitEr
     let fit = fit_nonlinear(NonlinearModel::OldroydB, &[NonlinearData::new(steady, rows)?], &Options::default())?;
     assert!(fit.parameters.iter().all(|parameter| parameter.state != State::Determined), "{:?}", fit.parameters);
     Ok(())
+}
+
+/// Several modes of Giesekus' fluid, followed together by the fluid itself, with N₂.
+fn several() -> (Modes<Giesekus>, Vec<NonlinearData>) {
+    let fluid = Modes::new(vec![
+        Giesekus::new(0.5, 4.0, 0.05, 0.2).expect("a mode"),
+        Giesekus::new(0.0, 20.0, 2.0, 0.2).expect("a mode"),
+    ])
+    .expect("modes");
+    let start = |shear_rate: f64, response: ShearResponse| {
+        let times = rates(0.02, 11);
+        let gradient = [[0.0; 3], [shear_rate, 0.0, 0.0], [0.0; 3]];
+        let stresses = follow(&fluid, |_| gradient, &times, 1e-13).expect("stresses");
+        let rows = times.iter().zip(stresses).map(|(t, stress)| {
+            let [t11, t22, t33, t12, ..] = stress.components;
+            let value = match response {
+                ShearResponse::ShearStress => t12,
+                ShearResponse::FirstNormalStressDifference => t22 - t11,
+                ShearResponse::SecondNormalStressDifference => t11 - t33,
+            };
+            [*t, value]
+        });
+        NonlinearData::new(NonlinearFlow::ShearStartUp { shear_rate, response }, rows.collect()).expect("rows")
+    };
+    let steady = rates(0.01, 14).into_iter().map(|k| [k, fluid.shear_stress(k)]).collect();
+    let data = vec![
+        NonlinearData::new(NonlinearFlow::SteadyShear(ShearResponse::ShearStress), steady).expect("rows"),
+        start(3.0, ShearResponse::ShearStress),
+        start(3.0, ShearResponse::FirstNormalStressDifference),
+        start(1.0, ShearResponse::SecondNormalStressDifference),
+    ];
+    (fluid, data)
+}
+
+#[test]
+fn modes_of_a_spectrum_and_their_mobility_are_found_again() -> Result<(), FitError> {
+    let (fluid, data) = several();
+    let options = Options { modes: RelaxationModes::Fitted(2), ..Options::default() };
+    let fit = fit_nonlinear(NonlinearModel::Giesekus, &data, &options)?;
+    let found: Vec<f64> = fit.parameters.iter().map(|parameter| parameter.value).collect();
+    assert_each_close("ηₛ, η₁, λ₁, η₂, λ₂, α", &found, &[0.5, 4.0, 0.05, 20.0, 2.0, 0.2], FOUND);
+    assert_eq!(fit.parameters[3].name, "polymer_viscosity2");
+    assert!(matches!(fit.fluid, AnyFluid::GiesekusModes(_)));
+    // The spectrum is known from oscillation: what is left is told to the same accuracy.
+    let given = fluid.modes().iter().map(|m| Relaxation { viscosity: m.polymer_viscosity(), time: m.time() }).collect();
+    let options = Options { modes: RelaxationModes::Given(given), ..Options::default() };
+    let fit = fit_nonlinear(NonlinearModel::Giesekus, &data, &options)?;
+    let found: Vec<f64> = fit.parameters.iter().map(|parameter| parameter.value).collect();
+    assert_each_close("ηₛ, α", &found, &[0.5, 0.2], FOUND);
+    Ok(())
+}
+
+#[test]
+fn second_normal_stresses_and_modes_are_checked_by_name() {
+    let (_, data) = several();
+    let refused = fit_nonlinear(NonlinearModel::LinearPtt, &data, &Options::default()).expect_err("no N₂").to_string();
+    assert!(refused.starts_with("linear-ptt has no second normal stress difference"), "{refused}");
+    let second = NonlinearFlow::SteadyShear(ShearResponse::SecondNormalStressDifference);
+    let refused = NonlinearData::new(second, vec![[1.0, 2.0]]).expect_err("positive").to_string();
+    assert_eq!(refused, "row 0: the response is 2; it must be negative and finite");
+    for (modes, what) in [
+        (RelaxationModes::Fitted(0), "the number of terms of a series is 0; it must be 1 to 6"),
+        (RelaxationModes::Given(vec![]), "number of modes"),
+        (RelaxationModes::Given(vec![Relaxation { viscosity: -1.0, time: 1.0 }]), "polymer_viscosity = -1e0 violates"),
+    ] {
+        let options = Options { modes, ..Options::default() };
+        let refused = fit_nonlinear(NonlinearModel::Giesekus, &data, &options).expect_err(what).to_string();
+        assert!(refused.contains(what), "{refused}");
+    }
 }

@@ -154,6 +154,62 @@ fn fitted_fibres_equal_those_that_made_the_tests() -> Fallible {
     Ok(())
 }
 
+/// Strips that were cut between the axes: width and shear by coordinate search, with the law itself and a pressure that keeps the volume.
+#[test]
+fn strips_at_an_angle_tell_the_fibres_and_equal_tests_along_the_axes_at_their_ends() -> Fallible {
+    let expected = [3.0_f64, 5.0, 4.0, 0.6, 0.1];
+    let [mu, k1, k2, angle, dispersion] = expected;
+    let (sine, cosine) = angle.sin_cos();
+    let fibres = [Fibre::new([cosine, sine, 0.0])?, Fibre::new([cosine, -sine, 0.0])?];
+    let law = HolzapfelGasserOgden::new(mu, 0.0, k1, k2, dispersion, fibres)?;
+    // P along the strip, with the width and the shear at which the stresses on its sides vanish. T = T′ − p 1 with p = T′₃₃.
+    let pulled = |from_axis: f64, stretch: f64| -> Result<[f64; 2], Box<dyn Error>> {
+        let turn = nalgebra::Rotation3::from_axis_angle(&nalgebra::Vector3::z_axis(), from_axis);
+        let cauchy = |width: f64, shear: f64| -> Result<nalgebra::Matrix3<f64>, Box<dyn Error>> {
+            let across = 1.0 / (stretch * width);
+            let own = nalgebra::Matrix3::new(stretch, shear, 0.0, 0.0, width, 0.0, 0.0, 0.0, across);
+            // In the frame of the body.
+            let gradient = DeformationGradient::new(turn.matrix() * own * turn.matrix().transpose())?;
+            let stress = turn.matrix().transpose() * law.cauchy(&gradient).0.matrix() * turn.matrix();
+            Ok(stress - nalgebra::Matrix3::identity() * stress[(2, 2)])
+        };
+        let (mut width, mut shear) = (stretch.powf(-0.5), 0.0);
+        for _ in 0..60 {
+            let at = cauchy(width, shear)?;
+            let excess = nalgebra::Vector2::new(at[(1, 1)], at[(0, 1)]);
+            let step = 1e-6;
+            let [a, b] = [cauchy(width + step, shear)?, cauchy(width, shear + step)?];
+            let slope = |moved: nalgebra::Matrix3<f64>| {
+                nalgebra::Vector2::new(moved[(1, 1)] - at[(1, 1)], moved[(0, 1)] - at[(0, 1)]) / step
+            };
+            let slopes = nalgebra::Matrix2::from_columns(&[slope(a), slope(b)]);
+            let change = slopes.try_inverse().ok_or("a tangent")? * excess;
+            (width, shear) = (width - change[0], shear - change[1]);
+        }
+        // P₁₁ = T₁₁ /F₁₁ of a shear along 1 that carries no T₁₂.
+        Ok([cauchy(width, shear)?[(0, 0)] / stretch, width])
+    };
+    let strip = |degrees: f64| -> Result<SidesTest, Box<dyn Error>> {
+        let mut rows = Vec::new();
+        for stretch in [1.05, 1.1, 1.15, 1.2, 1.25] {
+            let [stress, width] = pulled(degrees.to_radians(), stretch)?;
+            rows.push((stretch, stress, Some(width)));
+        }
+        Ok(SidesTest::strip(format!("{degrees}°"), degrees.to_radians(), &rows)?)
+    };
+    let model: SidesModel = "holzapfel-gasser-ogden".parse()?;
+    let fit = fit_sides(model, &[strip(20.0)?, strip(45.0)?, strip(70.0)?], &SidesOptions::default())?;
+    assert!(fit.weighted_squares < 1e-14, "{fit:?}");
+    assert_close("θ", &fit.values(), &expected, Tol::stated(1e-5, "the same, of parameters that are correlated"));
+    // A strip along axis 2 is the transverse test.
+    let along = of_fibres(angle, [mu, k1, k2, dispersion])?;
+    let [stress, _] = pulled(core::f64::consts::FRAC_PI_2, 1.2)?;
+    assert_close("P at 90°", &[stress], &[along[1].rows()[3].1], Tol::stated(1e-7, "differences over 1e-6"));
+    let refused = SidesTest::strip("a", f64::NAN, &[(1.1, 1.0, None)]).expect_err("NaN").to_string();
+    assert_eq!(refused, "test `a`: the angle NaN of the strip is not finite");
+    Ok(())
+}
+
 #[test]
 fn tests_with_sides_are_refused_by_name() -> Fallible {
     let row = [(0.5, -1.0, None)];

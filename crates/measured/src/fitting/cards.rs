@@ -13,6 +13,9 @@
 //! Ansys ETUBE            W = ½ Gc (…) + 2 Ge/β² Σ (λ^(−β) − 1) + (J − 1)²/d                               Gc, Ge, β, δ, d = 2/K
 //! ```
 //! Stretches and invariants are those of F/J^(1/3). Numbers are in the unit of the fitted stresses, which must be that of the model.
+//!
+//! `CalculiX` reads at most three terms, the first twenty characters of a number, and puts a size of its own in place of a Dᵢ below 10⁻¹⁰:
+//! its cards have thirteen digits, and 10³⁰ for the Dᵢ that Abaqus' cards leave zero.
 
 use core::fmt::Write as _;
 use core::str::FromStr;
@@ -27,7 +30,7 @@ use crate::MeasuredError;
 pub enum Program {
     /// Abaqus.
     Abaqus,
-    /// `CalculiX`, whose cards are those of Abaqus.
+    /// `CalculiX`, whose cards are those of Abaqus in numbers of twenty characters.
     CalculiX,
     /// Ansys Mechanical APDL.
     Ansys,
@@ -163,7 +166,8 @@ fn law(model: AnyModel, values: &[f64]) -> Option<Law> {
 /// The card of a fitted law.
 ///
 /// # Errors
-/// [`MeasuredError::NoCard`] for a law that the program does not have; [`MeasuredError::Argument`] for LS-DYNA without a density.
+/// [`MeasuredError::NoCard`] for a law that the program does not have; [`MeasuredError::Argument`] for LS-DYNA without a density, and in
+/// `CalculiX` for more than three terms or a bulk modulus above 2·10¹⁰.
 ///
 /// # Example
 /// ```
@@ -185,7 +189,8 @@ pub fn card(program: Program, model: AnyModel, fit: &Fit, bulk: Bulk) -> Result<
             let numbers: Vec<f64> = four.into_iter().chain([2.0 / bulk.modulus]).collect();
             Ok(format!("*MATERIAL, NAME={name}\n*HYPERELASTIC, VAN DER WAALS\n{}\n", joined(&numbers)))
         }
-        (Program::Abaqus | Program::CalculiX, law) => abaqus(&name, &law, bulk).ok_or_else(none),
+        (Program::Abaqus, law) => abaqus(&name, &law, 2.0 / bulk.modulus, 0.0, &lines).ok_or_else(none),
+        (Program::CalculiX, law) => calculix(&name, &law, bulk)?.ok_or_else(none),
         (Program::Ansys, law) => ansys(&name, &law, bulk).ok_or_else(none),
         (Program::LsDyna, law) => dyna(&name, &law, fit.initial_shear_modulus, bulk).ok_or_else(none),
         (Program::FeBio, law) => febio(&name, &law, bulk).ok_or_else(none),
@@ -202,8 +207,38 @@ fn joined(numbers: &[f64]) -> String {
 }
 
 /// Lines of at most eight numbers.
-fn lines(numbers: &[f64]) -> String {
+pub(crate) fn lines(numbers: &[f64]) -> String {
     numbers.chunks(8).map(joined).collect::<Vec<_>>().join(",\n")
+}
+
+/// The same with numbers of at most twenty characters: `CalculiX` reads no more of them.
+pub(crate) fn short_lines(numbers: &[f64]) -> String {
+    let joined = |line: &[f64]| line.iter().map(|x| format!("{x:.12e}")).collect::<Vec<_>>().join(", ");
+    numbers.chunks(8).map(joined).collect::<Vec<_>>().join(",\n")
+}
+
+/// The most terms of `CalculiX`.
+pub(crate) const MOST_OF_CALCULIX: usize = 3;
+
+fn calculix(name: &str, law: &Law, bulk: Bulk) -> Result<Option<String>, MeasuredError> {
+    /// A Dᵢ whose term counts nothing.
+    const NOTHING: f64 = 1e30;
+    /// A Dᵢ below which `CalculiX` takes another.
+    const LEAST: f64 = 1e-10;
+    let terms = match law {
+        Law::Powers(powers) => usize::from(degree(powers)),
+        Law::Stretches(all) => all.len(),
+        _ => return Ok(None),
+    };
+    let inverse = 2.0 / bulk.modulus;
+    let valid = match (terms <= MOST_OF_CALCULIX, LEAST <= inverse) {
+        (false, _) => "laws of at most three terms",
+        (_, false) => {
+            "a bulk modulus of at most 2e10 in the unit of the stresses: CalculiX replaces D = 2/K below 1e-10"
+        }
+        _ => return Ok(abaqus(name, law, inverse, NOTHING, &short_lines)),
+    };
+    Err(MeasuredError::Argument { argument: format!("a card of CalculiX for {name}"), valid })
 }
 
 /// The degree of a polynomial.
@@ -216,10 +251,10 @@ fn is_reduced(powers: &[([u8; 2], f64)]) -> bool {
     powers.iter().all(|([_, j], _)| *j == 0)
 }
 
-fn abaqus(name: &str, law: &Law, bulk: Bulk) -> Option<String> {
+/// With D₁ and the other Dᵢ, and lines of numbers.
+fn abaqus(name: &str, law: &Law, first: f64, others: f64, lines: &dyn Fn(&[f64]) -> String) -> Option<String> {
     let mut text = format!("*MATERIAL, NAME={name}\n");
-    let inverse = 2.0 / bulk.modulus;
-    let volumetric = |terms: u8| core::iter::once(inverse).chain((1..terms).map(|_| 0.0));
+    let volumetric = |terms: u8| core::iter::once(first).chain((1..terms).map(|_| others));
     match law {
         Law::Powers(powers) => {
             let terms = degree(powers);

@@ -15,6 +15,7 @@ mod request;
 mod tables;
 
 pub use cards::{Bulk, Program, card};
+pub(crate) use cards::{MOST_OF_CALCULIX, lines, short_lines};
 pub use mistake::{TableMistake, TableReport};
 pub use request::{LawBounds, Request};
 

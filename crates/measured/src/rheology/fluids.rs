@@ -159,7 +159,7 @@ type Embedding = (FluidModel, FluidModel, fn(&[f64]) -> Vec<f64>);
 const NOTHING: f64 = 1e-12;
 
 /// Fluids with fluids that they contain.
-const CONTAINED: [Embedding; 7] = [
+const CONTAINED: [Embedding; 9] = [
     (FluidModel::PowerLaw, FluidModel::Newtonian, |p| vec![p[0], 1.0]),
     (FluidModel::Bingham, FluidModel::Newtonian, |p| vec![NOTHING * p[0], p[0]]),
     (FluidModel::Casson, FluidModel::Newtonian, |p| vec![NOTHING * p[0], p[0]]),
@@ -167,7 +167,22 @@ const CONTAINED: [Embedding; 7] = [
     (FluidModel::HerschelBulkley, FluidModel::Bingham, |p| vec![p[0], p[1], 1.0]),
     (FluidModel::Sisko, FluidModel::PowerLaw, |p| vec![NOTHING * p[0], p[0], p[1]]),
     (FluidModel::Sisko, FluidModel::Newtonian, |p| vec![p[0], NOTHING * p[0], 0.5]),
+    // η₀ beyond all rows: η₀/(λ k)^(1 − n) = K k^(n − 1).
+    (FluidModel::Cross, FluidModel::Sisko, |p| {
+        let [zero, time] = beyond(p);
+        vec![zero, p[0], time, 1.0 - p[2]]
+    }),
+    (FluidModel::CarreauYasuda, FluidModel::Sisko, |p| {
+        let [zero, time] = beyond(p);
+        vec![zero, p[0], time, p[2], 1.0]
+    }),
 ];
+
+/// A viscosity at rest, and a time, of a fluid that thins as Sisko's over all rows.
+fn beyond(sisko: &[f64]) -> [f64; 2] {
+    const FAR: f64 = 1e6;
+    [FAR * sisko[1], FAR.powf((1.0 - sisko[2]).recip())]
+}
 
 /// Fluids to compare, and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -339,7 +354,9 @@ impl Comparison {
         for (fluid, fit) in self.fits() {
             let _ = writeln!(text, "{fluid}");
             for found in &fit.parameters {
-                let _ = writeln!(text, "{}", parameter(found));
+                let line =
+                    parameter_in_words(found.name, found.value, (found.standard_error, found.interval, found.state));
+                let _ = writeln!(text, "{line}");
             }
         }
         text.push('\n');
@@ -406,13 +423,17 @@ impl Comparison {
 }
 
 /// A parameter with its interval for a reader.
-fn parameter(FluidParameter { name, value, standard_error, interval, state, .. }: &FluidParameter) -> String {
+pub(crate) fn parameter_in_words(
+    name: &str,
+    value: f64,
+    (standard_error, interval, state): (Option<f64>, Option<[f64; 2]>, State),
+) -> String {
     let mut line = format!("  {name:<26}");
     let _ = match (state, standard_error, interval) {
         (State::AtBound, _, Some([_, high])) => write!(line, "{:>13}  at its bound, below {high:.4e}", 0),
         (State::AtBound, _, None) => write!(line, "{value:>13.5e}  at its bound"),
         (State::Determined, Some(error), Some([low, high])) => {
-            write!(line, "{value:>13.5e} ± {error:.1e}  [{}, {}]", end(*low), end(*high))
+            write!(line, "{value:>13.5e} ± {error:.1e}  [{}, {}]", end(low), end(high))
         }
         (State::NoDegreesOfFreedom, _, _) => write!(line, "{value:>13.5e}  no error: no degrees of freedom"),
         _ => write!(line, "{value:>13.5e}  not determined by these data"),
@@ -431,10 +452,10 @@ fn end(x: f64) -> String {
     }
 }
 
-fn largest(residuals: &[f64]) -> f64 {
+pub(crate) fn largest(residuals: &[f64]) -> f64 {
     residuals.iter().fold(0.0, |most, r| most.max(r.abs()))
 }
 
-fn rms(residuals: &[f64]) -> f64 {
+pub(crate) fn rms(residuals: &[f64]) -> f64 {
     (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len().max(1) as f64).sqrt()
 }

@@ -6,11 +6,12 @@
 //! | column | meaning |
 //! |---|---|
 //! | `mode` | uniaxial, transverse, equibiaxial, planar, simple shear, volumetric |
-//! | `angle` | of a uniaxial specimen from axis 1, degrees: 0 is `uniaxial`, 90 is `transverse`; no other is read |
+//! | `angle` | of a uniaxial specimen from axis 1, degrees: 0 is `uniaxial`, 90 is `transverse`, between them it is a strip that is free to shear |
 //! | `stretch` or `strain` | along the load; of simple shear the amount, of volumetric tests det F |
 //! | `stress` | first Piola–Kirchhoff stress; of volumetric tests the pressure |
 //! | `lateral stretch` or `lateral strain` | of the side: λ₂ of uniaxial, λ₁ of transverse, λ₃ of equibiaxial and planar tests |
 
+pub(crate) mod columns;
 mod table;
 
 pub use piola_fit::sides::{Loading, SidesFit, SidesModel, SidesOptions, SidesTest};
@@ -24,7 +25,7 @@ use piola_fit::sides::fit_sides;
 use serde_json::{Value, json};
 
 use crate::MeasuredError;
-use crate::fitting::Program;
+use crate::fitting::{MOST_OF_CALCULIX, Program, lines, short_lines};
 
 /// Laws fitted to the same tests.
 ///
@@ -164,20 +165,20 @@ const fn state(state: piola_fit::State) -> &'static str {
 /// ```
 ///
 /// # Errors
-/// [`MeasuredError::NoCard`] for other laws and programs.
+/// [`MeasuredError::NoCard`] for other laws and programs; [`MeasuredError::Argument`] for more than three terms in `CalculiX`.
 pub fn card_of_foam(program: Program, model: SidesModel, fit: &SidesFit) -> Result<String, MeasuredError> {
     let (SidesModel::Hyperfoam(series), Program::Abaqus | Program::CalculiX) = (model, program) else {
         return Err(MeasuredError::NoCard { law: model.to_string(), program: program.to_string() });
     };
+    let count = series.count();
+    if program == Program::CalculiX && MOST_OF_CALCULIX < count {
+        let argument = format!("a card of CalculiX for {model}");
+        return Err(MeasuredError::Argument { argument, valid: "laws of at most three terms" });
+    }
     let values = fit.values();
     let terms = values.chunks_exact(3);
-    let numbers: Vec<String> = terms
-        .clone()
-        .flat_map(|term| [term[0], term[1]])
-        .chain(terms.map(|term| term[2]))
-        .map(|x| format!("{x:?}"))
-        .collect();
-    let lines: Vec<String> = numbers.chunks(8).map(|line| line.join(", ")).collect();
-    let count = series.count();
-    Ok(format!("*MATERIAL, NAME=hyperfoam-{count}\n*HYPERFOAM, N={count}\n{}\n", lines.join(",\n")))
+    let numbers: Vec<f64> =
+        terms.clone().flat_map(|term| [term[0], term[1]]).chain(terms.map(|term| term[2])).collect();
+    let lines = if program == Program::CalculiX { short_lines(&numbers) } else { lines(&numbers) };
+    Ok(format!("*MATERIAL, NAME=hyperfoam-{count}\n*HYPERFOAM, N={count}\n{lines}\n"))
 }

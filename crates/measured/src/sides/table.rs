@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use piola_document::units::Dimension;
 use piola_fit::sides::{Loading, SidesTest};
 
+use super::columns::{
+    ANGLE, Column, MODE, SIDE, SIDE_STRAIN, STRAIN, STRESS, STRETCH, field, find, is_known, loading, stress_unit,
+};
 use crate::MeasuredError;
 use crate::fitting::{TableMistake, TableReport};
-use crate::sheet::{Row, Sheet, read, spelled, units_of, unknown};
+use crate::sheet::{Row, Sheet, read};
 
 /// Tests of one material.
 ///
@@ -18,7 +20,9 @@ use crate::sheet::{Row, Sheet, read, spelled, units_of, unknown};
 /// let measurements = SidesMeasurements::parse("skin.csv", text)?;
 /// assert_eq!((measurements.tests.len(), measurements.unit.as_deref()), (2, Some("kPa")));
 /// assert_eq!(measurements.tests[0].rows()[0], (1.1, 5.0, Some(0.96)));
-/// let wrong = SidesMeasurements::parse("skin.csv", "angle,stretch,stress\n45,1.1,2\n");
+/// let strip = SidesMeasurements::parse("skin.csv", "angle,stretch,stress\n45,1.1,2\n")?;
+/// assert_eq!(strip.tests[0].angle(), core::f64::consts::FRAC_PI_4);
+/// let wrong = SidesMeasurements::parse("skin.csv", "angle,stretch,stress\n120,1.1,2\n");
 /// assert!(wrong.unwrap_err().to_string().starts_with("skin.csv:2: "));
 /// # Ok::<(), piola_measured::MeasuredError>(())
 /// ```
@@ -64,57 +68,13 @@ impl SidesMeasurements {
     }
 }
 
-const MODE: &[&str] = &["mode", "test", "test type", "loading", "deformation mode"];
-const ANGLE: &[&str] = &["angle", "direction", "orientation"];
-const STRETCH: &[&str] = &["stretch", "stretch ratio", "lambda", "λ", "volume ratio", "j"];
-const STRAIN: &[&str] = &["strain", "engineering strain", "nominal strain", "epsilon", "ε"];
-const STRESS: &[&str] =
-    &["stress", "nominal stress", "engineering stress", "first piola stress", "pk1", "p", "pressure"];
-const SIDE: &[&str] = &["lateral stretch", "transverse stretch", "lambda t", "λt", "λₜ"];
-const SIDE_STRAIN: &[&str] = &["lateral strain", "transverse strain"];
-const ALL: [&[&str]; 7] = [MODE, ANGLE, STRETCH, STRAIN, STRESS, SIDE, SIDE_STRAIN];
-
-fn find(sheet: &Sheet, names: &'static [&str]) -> Option<usize> {
-    sheet.columns(&|plain| names.contains(&plain)).next()
-}
-
-/// A stretch, or a strain, in its column.
-#[derive(Clone, Copy)]
-struct Column {
-    at: usize,
-    unit: f64,
-    is_strain: bool,
-}
-
-impl Column {
-    fn of(sheet: &Sheet, stretch: &'static [&str], strain: &'static [&str]) -> Result<Option<Self>, TableMistake> {
-        let found = find(sheet, stretch).map(|at| (at, false)).or_else(|| find(sheet, strain).map(|at| (at, true)));
-        let Some((at, is_strain)) = found else { return Ok(None) };
-        let unit = match sheet.headings[at].unit.as_deref().map(|text| (text, spelled(text))) {
-            None => 1.0,
-            Some((_, Some(unit))) if unit.dimension == Dimension::NONE => unit.to_si(1.0),
-            Some((text, _)) => {
-                let what = format!("`{text}` is no unit of a stretch or strain");
-                return Err(TableMistake::new(sheet.header_line, what, "%, or - for a pure number"));
-            }
-        };
-        Ok(Some(Self { at, unit, is_strain }))
-    }
-
-    /// The stretch of a number; simple shear has an amount, which is no strain of a length.
-    fn stretch(self, x: f64, loading: Loading) -> f64 {
-        let x = self.unit * x;
-        if self.is_strain && loading != Loading::SimpleShear { 1.0 + x } else { x }
-    }
-}
-
 /// Stretch, stress and lateral stretch.
 type Point = (f64, f64, Option<f64>);
 /// Unit, tests and notes of a table.
 type Tests = (Option<String>, Vec<SidesTest>, Vec<String>);
 
 fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
-    let sheet = Sheet::parse(text, &|plain| ALL.iter().any(|names| names.contains(&plain)))?;
+    let sheet = Sheet::parse(text, &is_known)?;
     let one = |mistake| vec![mistake];
     let missing = |what: &str, valid: &'static str| {
         let what = format!("no column is a {what}: the columns are {}", sheet.names());
@@ -129,21 +89,12 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
     if modes.is_none() && angles.is_none() {
         return Err(missing("mode or an angle", "a column `mode`, or a column `angle` of uniaxial specimens"));
     }
-    let unit = sheet.headings[stress].unit.clone().or_else(|| {
-        let stated = sheet.settings.iter().find(|setting| matches!(setting.key.as_str(), "unit" | "stress unit"));
-        stated.map(|setting| setting.value.clone())
-    });
-    if let Some(unit) = &unit
-        && spelled(unit).is_none_or(|found| found.dimension != Dimension::PRESSURE)
-    {
-        let valid = format!("one of {}", units_of(Dimension::PRESSURE));
-        return Err(vec![TableMistake::new(sheet.header_line, unknown(unit), valid)]);
-    }
+    let unit = stress_unit(&sheet, stress).map_err(one)?;
     let mut mistakes = Vec::new();
-    let mut groups: Vec<(Loading, u64, Vec<Point>)> = Vec::new();
+    let mut groups: Vec<(Loading, f64, u64, Vec<Point>)> = Vec::new();
     for row in &sheet.rows {
-        let loading = match loading(&sheet, row, modes, angles) {
-            Ok(loading) => loading,
+        let (loading, degrees) = match specimen(&sheet, row, modes, angles) {
+            Ok(specimen) => specimen,
             Err(mistake) => {
                 mistakes.push(mistake);
                 continue;
@@ -170,17 +121,22 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
                 mistakes.push(TableMistake::new(row.line, format!("the {name} is {value}"), hint));
             }
         }
-        match groups.iter_mut().find(|(other, _, _)| *other == loading) {
-            Some((_, _, points)) => points.push((x, p, lateral)),
-            None => groups.push((loading, row.line, vec![(x, p, lateral)])),
+        let is_same = |other: Loading, angle: f64| other == loading && angle.total_cmp(&degrees).is_eq();
+        match groups.iter_mut().find(|(other, angle, ..)| is_same(*other, *angle)) {
+            Some((.., points)) => points.push((x, p, lateral)),
+            None => groups.push((loading, degrees, row.line, vec![(x, p, lateral)])),
         }
     }
     if !mistakes.is_empty() {
         return Err(mistakes);
     }
     let mut found = Vec::new();
-    for (loading, line, points) in groups {
-        let test = SidesTest::new(loading.name(), loading, &points);
+    for (loading, degrees, line, points) in groups {
+        let test = if 0.0 < degrees {
+            SidesTest::strip(format!("strip at {degrees}°"), degrees.to_radians(), &points)
+        } else {
+            SidesTest::new(loading.name(), loading, &points)
+        };
         found.push(test.map_err(|error| vec![TableMistake::new(line, error.to_string(), "a test of a material")])?);
     }
     if found.is_empty() {
@@ -203,33 +159,21 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
     Ok((unit, found, notes))
 }
 
-/// The loading that mode and angle of a row name.
-fn loading(sheet: &Sheet, row: &Row, modes: Option<usize>, angles: Option<usize>) -> Result<Loading, TableMistake> {
-    let field = |at: Option<usize>| at.and_then(|at| row.fields.get(at)).map(str::trim).filter(|text| !text.is_empty());
-    let mode = match field(modes) {
-        None => Loading::Uniaxial,
-        Some(label) => match label.to_lowercase().as_str() {
-            "uniaxial" | "ut" | "tension" | "compression" | "uc" => Loading::Uniaxial,
-            "transverse" => Loading::Transverse,
-            "equibiaxial" | "biaxial" | "et" | "eb" | "bt" => Loading::Equibiaxial,
-            "planar" | "pure shear" | "pure_shear" | "ps" | "pt" => Loading::Planar,
-            "simple shear" | "simple_shear" | "ss" => Loading::SimpleShear,
-            "volumetric" | "hydrostatic" | "vt" => Loading::Volumetric,
-            _ => {
-                let valid = "uniaxial, transverse, equibiaxial, planar, simple shear, volumetric";
-                return Err(TableMistake::new(row.line, format!("the mode is `{label}`"), valid));
-            }
-        },
-    };
-    let Some(text) = field(angles) else { return Ok(mode) };
-    let degrees = sheet.number(text).map(f64::abs);
-    match (mode, degrees) {
-        (Loading::Uniaxial, Some(angle)) if angle <= 0.0 => Ok(Loading::Uniaxial),
-        (Loading::Uniaxial, Some(angle)) if (angle - 90.0).abs() <= 0.0 => Ok(Loading::Transverse),
+/// The loading of a row, and the angle of a strip between the axes, degrees.
+fn specimen(
+    sheet: &Sheet,
+    row: &Row,
+    modes: Option<usize>,
+    angles: Option<usize>,
+) -> Result<(Loading, f64), TableMistake> {
+    let mode = loading(row, modes)?;
+    let Some(text) = field(row, angles) else { return Ok((mode, 0.0)) };
+    match (mode, sheet.number(text).map(f64::abs)) {
+        (Loading::Uniaxial, Some(angle)) if (angle - 90.0).abs() <= 0.0 => Ok((Loading::Transverse, 0.0)),
+        (Loading::Uniaxial, Some(angle)) if angle < 90.0 => Ok((Loading::Uniaxial, angle)),
         _ => {
             let what = format!("a {} specimen at the angle `{text}`", mode.name());
-            let valid = "a uniaxial specimen at 0 or 90 degrees from axis 1; between them it shears";
-            Err(TableMistake::new(row.line, what, valid))
+            Err(TableMistake::new(row.line, what, "a uniaxial specimen at 0 to 90 degrees from axis 1"))
         }
     }
 }

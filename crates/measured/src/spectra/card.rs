@@ -15,8 +15,9 @@ const MOST_OF_FEBIO: usize = 6;
 /// ```text
 /// Abaqus   *VISCOELASTIC, TIME=PRONY: gᵢ/G₀, 0, τᵢ       G(t)/G₀ = 1 − Σ (gᵢ/G₀)(1 − exp(−t/τᵢ))
 /// Ansys    TB,PRONY,1,1,n,SHEAR: gᵢ/G₀, τᵢ               the same
-/// FEBio    viscoelastic: g0 = Gₑ/G₀, gᵢ/G₀, tᵢ = τᵢ      G(t)/G₀ = g0 + Σ gᵢ exp(−t/tᵢ)
+/// FEBio    uncoupled viscoelastic: g0 = Gₑ/G₀, gᵢ/G₀, tᵢ   G(t)/G₀ = g0 + Σ gᵢ exp(−t/tᵢ)
 /// ```
+/// `FEBio`'s card takes an elastic law that is uncoupled too, as those of [`card`](crate::fitting::card) are.
 /// Times are in s. The change of volume does not relax. LS-DYNA needs more: [`general_viscoelastic`].
 ///
 /// # Errors
@@ -56,8 +57,11 @@ pub fn prony(program: Program, spectrum: &RelaxationSpectrum) -> Result<String, 
             }
         }
         Program::FeBio if terms.len() <= MOST_OF_FEBIO => {
-            let _ = writeln!(text, "<!-- instantaneous shear modulus {glassy:?} Pa; put the elastic law inside -->");
-            text.push_str("<material id=\"1\" type=\"viscoelastic\">\n");
+            let _ = writeln!(
+                text,
+                "<!-- instantaneous shear modulus {glassy:?} Pa; put the elastic law inside, as <elastic type=\"Ogden\"> -->"
+            );
+            text.push_str("<material id=\"1\" type=\"uncoupled viscoelastic\">\n");
             let rest = 1.0 - terms.iter().map(|[share, _]| share).sum::<f64>();
             let _ = writeln!(text, "  <g0>{:?}</g0>", rest.max(0.0));
             for (k, [share, time]) in (1..).zip(terms) {

@@ -76,6 +76,8 @@ pub struct Superposition {
     pub shifts: Vec<[f64; 2]>,
     /// ln bₜ of each isotherm, if vertical shifts were asked for.
     pub vertical: Option<Vec<f64>>,
+    /// 95 % intervals of ln aₜ and ln bₜ of each isotherm, if vertical shifts were asked for; none of the reference.
+    pub intervals: Vec<[Option<[f64; 2]>; 2]>,
     /// The activation energy.
     pub arrhenius: Result<ShiftFit<Arrhenius, 1>, SpectraError>,
     /// The constants C₁ and C₂.
@@ -243,7 +245,8 @@ fn superposed(table: &SpectrumTable, request: &SpectrumRequest) -> Result<Option
     } else {
         let isotherms: Vec<IsothermalCurve<'_>> = isotherms.into_iter().flatten().collect();
         let along = horizontal_shifts(&isotherms, reference)?;
-        along.into_iter().map(|ln_horizontal| CurveShift { ln_horizontal, ln_vertical: 0.0 }).collect()
+        let of = |ln_horizontal| CurveShift { ln_horizontal, ..CurveShift::default() };
+        along.into_iter().map(of).collect()
     };
     let logarithms: Vec<f64> = found.iter().map(|shift| shift.ln_horizontal).collect();
     let reference_temperature = temperatures[reference];
@@ -252,6 +255,7 @@ fn superposed(table: &SpectrumTable, request: &SpectrumRequest) -> Result<Option
         reference_temperature,
         shifts,
         vertical: request.vertical.then(|| found.iter().map(|shift| shift.ln_vertical).collect()),
+        intervals: found.iter().map(|shift| [shift.horizontal_interval, shift.vertical_interval]).collect(),
         arrhenius: fit_arrhenius(&temperatures, &logarithms, reference_temperature),
         williams_landel_ferry: fit_williams_landel_ferry(&temperatures, &logarithms, reference_temperature),
     }))

@@ -18,7 +18,7 @@ impl MeasuredSpectrum {
         self.fit.outcome.is_converged() && !self.interrupted
     }
 
-    /// The intervals of each relaxation mode; none of creep.
+    /// The intervals of each relaxation mode.
     fn intervals(&self) -> impl Iterator<Item = [Option<[f64; 2]>; 2]> {
         let fit = &self.fit;
         let of = |list: &[Option<[f64; 2]>], k: usize| list.get(k).copied().flatten();
@@ -109,23 +109,16 @@ impl MeasuredSpectrum {
         }
         if let Some(creep) = &fit.retardation {
             text.push_str(&told_of_creep(creep));
-            let _ = writeln!(text, "{:>14}{:>14}   relaxation, converted exactly", "g, Pa", "τ, s");
-            for mode in fit.spectrum.modes() {
-                let _ = writeln!(text, "{:>14.6e}{:>14.6e}", mode.modulus, mode.relaxation_time);
-            }
-            if 0.0 < fit.spectrum.equilibrium_modulus() {
-                let _ = writeln!(text, "{:>14.6e}{:>14}", fit.spectrum.equilibrium_modulus(), "∞");
-            }
-        } else {
-            let _ = writeln!(text, "{:>14}{:>14}   95 % intervals", "g, Pa", "τ, s");
-            for (mode, [modulus, time]) in fit.spectrum.modes().iter().zip(self.intervals()) {
-                let (modulus, time) = (interval(modulus), interval(time));
-                let _ = writeln!(text, "{:>14.6e}{:>14.6e}   {modulus}  {time}", mode.modulus, mode.relaxation_time);
-            }
-            if !fit.spectrum.is_liquid() {
-                let modulus = fit.spectrum.equilibrium_modulus();
-                let _ = writeln!(text, "{modulus:>14.6e}{:>14}   {}", "∞", interval(fit.equilibrium_interval));
-            }
+            text.push_str("relaxation, converted exactly\n");
+        }
+        let _ = writeln!(text, "{:>14}{:>14}   95 % intervals", "g, Pa", "τ, s");
+        for (mode, [modulus, time]) in fit.spectrum.modes().iter().zip(self.intervals()) {
+            let (modulus, time) = (interval(modulus), interval(time));
+            let _ = writeln!(text, "{:>14.6e}{:>14.6e}   {modulus}  {time}", mode.modulus, mode.relaxation_time);
+        }
+        if !fit.spectrum.is_liquid() {
+            let modulus = fit.spectrum.equilibrium_modulus();
+            let _ = writeln!(text, "{modulus:>14.6e}{:>14}   {}", "∞", interval(fit.equilibrium_interval));
         }
         let fitted = fit.retardation.as_ref().map(|creep| creep.spectrum.modes().len());
         let count = fitted.unwrap_or(fit.spectrum.modes().len());
@@ -188,10 +181,16 @@ impl MeasuredSpectrum {
         if let Some(superposition) = &self.superposition {
             let vertical = superposition.vertical.as_ref();
             let lines = superposition.shifts.iter().enumerate().map(|(k, [t, shift])| {
-                let across = vertical.map_or_else(String::new, |b| format!(",{:?}", b[k]));
+                let across = vertical.map_or_else(String::new, |b| {
+                    let [along, across] = superposition.intervals[k].map(ends);
+                    format!(",{:?},{along},{across}", b[k])
+                });
                 format!("{t:?},{shift:?}{across}\n")
             });
-            let header = if vertical.is_some() { "temperature [K],ln a,ln b\n" } else { "temperature [K],ln a\n" };
+            let header = match vertical {
+                Some(_) => "temperature [K],ln a,ln b,ln a low,ln a high,ln b low,ln b high\n",
+                None => "temperature [K],ln a\n",
+            };
             files.push(("shifts.csv", lines.fold(header.to_owned(), |text, line| text + &line)));
         }
         if let Some(creep) = &self.fit.retardation {
@@ -302,7 +301,8 @@ fn interval(found: Option<[f64; 2]>) -> String {
 fn shifts(found: &Superposition) -> Value {
     let rows = found.shifts.iter().enumerate().map(|(k, [t, shift])| {
         let across = found.vertical.as_ref().map(|b| b[k]);
-        json!({ "temperature": t, "ln_a": shift, "ln_b": across })
+        let [along, above] = found.intervals[k];
+        json!({ "temperature": t, "ln_a": shift, "ln_b": across, "ln_a_interval": along, "ln_b_interval": above })
     });
     let arrhenius = match &found.arrhenius {
         Ok(fit) => json!({
@@ -334,7 +334,11 @@ fn shifts(found: &Superposition) -> Value {
 fn told(found: &Superposition) -> String {
     let mut text = format!("shifted to {:.1} °C\n", found.reference_temperature - ICE);
     for (k, [temperature, shift]) in found.shifts.iter().enumerate() {
-        let across = found.vertical.as_ref().map_or_else(String::new, |b| format!("   ln bₜ = {:.4}", b[k]));
+        let across = found.vertical.as_ref().map_or_else(String::new, |b| {
+            let within =
+                found.intervals[k][1].map_or_else(String::new, |[low, high]| format!(" [{low:.4}, {high:.4}]"));
+            format!("   ln bₜ = {:.4}{within}", b[k])
+        });
         let _ = writeln!(text, "{:>10.1} °C   ln aₜ = {shift:.4}{across}", temperature - ICE);
     }
     match &found.arrhenius {

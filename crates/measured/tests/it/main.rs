@@ -4,8 +4,11 @@ mod cards;
 mod figures;
 mod fits;
 mod fitting;
+#[cfg(feature = "history")]
+mod history;
 mod layouts;
 mod newtonian;
+mod nonlinear;
 mod rheology;
 mod sides;
 mod spectra;

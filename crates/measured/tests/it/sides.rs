@@ -47,7 +47,7 @@ fn mistakes_of_tables_with_sides_are_named_with_their_line() {
         ("mode,stretch,stress\nuniaxial,x,-1\n", "foam.csv:2: stretch is `x`"),
         ("mode,stretch,stress\nuniaxial,-0.5,-1\n", "foam.csv:2: the stretch is -0.5"),
         ("mode,stretch,stress,lateral stretch\nuniaxial,0.5,-1,0\n", "foam.csv:2: the lateral stretch is 0"),
-        ("angle,stretch,stress\n45,1.1,1\n", "foam.csv:2: a uniaxial specimen at the angle `45`"),
+        ("angle,stretch,stress\n120,1.1,1\n", "foam.csv:2: a uniaxial specimen at the angle `120`"),
         ("mode,angle,stretch,stress\nplanar,90,1.1,1\n", "foam.csv:2: a planar specimen at the angle `90`"),
         ("stretch,stress\n1.1,1\n", "foam.csv:1: no column is a mode or an angle"),
         ("mode,stress\nuniaxial,1\n", "foam.csv:1: no column is a stretch or a strain"),

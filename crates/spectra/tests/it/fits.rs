@@ -241,3 +241,58 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
         assert!((0.92..=0.98).contains(&share), "{share}");
     }
 }
+
+#[test]
+fn intervals_of_converted_modes_follow_from_those_of_creep() {
+    // J = J_g + t/η₀: g = 1/J_g, so both have the same interval of their logarithms; τ = J_g η₀.
+    let mut k = 0.0_f64;
+    let mut disturbed = |value: f64| {
+        k += 1.0;
+        value * (1.0 + 0.02 * (2.0 * (k * k * 0.618_033_988_749_895).fract() - 1.0))
+    };
+    let times = decades(-3.0);
+    let compliances: Vec<f64> = times.iter().map(|t| disturbed(1e-5 + t / 4e5)).collect();
+    let data = SpectrumData::Creep { times: &times, compliances: &compliances };
+    let fit = fit_spectrum(data, SpectrumOptions { modes: Some(0), ..SpectrumOptions::default() }).expect("a spectrum");
+    let creep = fit.retardation.as_ref().expect("creep");
+    let [low, high] = creep.glassy_interval.expect("determined");
+    let found = fit.modulus_intervals[0].expect("determined");
+    assert_each_close("g", &found, &[1.0 / high, 1.0 / low], Tol::stated(1e-7, "central differences over 1e-4"));
+    let [low, high] = fit.relaxation_time_intervals[0].expect("determined");
+    assert!(low < 4.0 && 4.0 < high && high / low < 1.1, "{low} {high}");
+}
+
+#[test]
+fn intervals_of_converted_modes_hold_the_spectrum_as_often_as_they_say() {
+    const TABLES: u64 = 60;
+    let melt = spectrum(&[(1e5, 0.05), (1e4, 8.0)], 0.0);
+    let creep = RetardationSpectrum::of(&melt);
+    let times = decades(-3.0);
+    let (mut inside, mut counted) = (0_usize, 0_usize);
+    for seed in 1..=TABLES {
+        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mut uniform = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        // The sum of twelve uniform numbers.
+        let mut disturbed = |y: f64| y * (1.0 + 0.01 * ((0..12).map(|_| uniform()).sum::<f64>() - 6.0));
+        let compliances: Vec<f64> = times.iter().map(|&t| disturbed(creep.compliance(t))).collect();
+        let data = SpectrumData::Creep { times: &times, compliances: &compliances };
+        let fit =
+            fit_spectrum(data, SpectrumOptions { modes: Some(1), ..SpectrumOptions::default() }).expect("a spectrum");
+        for (k, mode) in melt.modes().iter().enumerate() {
+            for (interval, truth) in
+                [(fit.modulus_intervals[k], mode.modulus), (fit.relaxation_time_intervals[k], mode.relaxation_time)]
+            {
+                let Some([low, high]) = interval else { continue };
+                counted += 1;
+                inside += usize::from(low <= truth && truth <= high);
+            }
+        }
+    }
+    assert_eq!(counted, 4 * 60);
+    // 240 intervals, four of a table: the standard deviation of their share is below 2 %.
+    let share = inside as f64 / counted as f64;
+    assert!((0.91..=0.99).contains(&share), "{share}");
+}

@@ -2,7 +2,8 @@
 
 use piola_fluids::{Arrhenius, TemperatureShift, WilliamsLandelFerry};
 use piola_spectra::{
-    IsothermalCurve, SpectraError, fit_arrhenius, fit_williams_landel_ferry, horizontal_shifts, shifts_along_both_axes,
+    CurveShift, IsothermalCurve, SpectraError, fit_arrhenius, fit_williams_landel_ferry, horizontal_shifts,
+    shifts_along_both_axes,
 };
 use piola_testkit::{Tol, assert_close, assert_each_close};
 
@@ -55,6 +56,14 @@ fn falling_frequencies_curves_apart_and_missing_references_are_refused() {
 
 /// ln aₜ and ln bₜ found from G′ and G″ of four temperatures with relative normal noise, and the exact ones.
 fn both_axes(noise: f64, seed: u64) -> [Vec<f64>; 4] {
+    let (found, horizontal, vertical) = along_both_axes(noise, seed);
+    let [along, across] =
+        [found.iter().map(|s| s.ln_horizontal).collect(), found.iter().map(|s| s.ln_vertical).collect()];
+    [along, across, horizontal.to_vec(), vertical.to_vec()]
+}
+
+/// The same, with the intervals of the shifts.
+fn along_both_axes(noise: f64, seed: u64) -> (Vec<CurveShift>, [f64; 4], [f64; 4]) {
     let melt = spectrum(&[(1e5, 0.001), (3e4, 0.01), (1e4, 0.1), (2e3, 1.0), (300.0, 10.0)], 0.0);
     let temperatures = [403.0, 423.0, 443.0, 463.0];
     let wlf = WilliamsLandelFerry::new(6.3, 105.0, 423.0).expect("positive");
@@ -74,10 +83,29 @@ fn both_axes(noise: f64, seed: u64) -> [Vec<f64>; 4] {
     let curve = |moduli| IsothermalCurve { angular_frequencies: &frequencies, moduli };
     let curves: Vec<_> = moduli.iter().map(|[storage, loss]| [curve(storage), curve(loss)]).collect();
     let curves: Vec<&[IsothermalCurve<'_>]> = curves.iter().map(<[_; 2]>::as_slice).collect();
-    let found = shifts_along_both_axes(&curves, 1).expect("shifts");
-    let [along, across] =
-        [found.iter().map(|s| s.ln_horizontal).collect(), found.iter().map(|s| s.ln_vertical).collect()];
-    [along, across, horizontal.to_vec(), vertical.to_vec()]
+    (shifts_along_both_axes(&curves, 1).expect("shifts"), horizontal, vertical)
+}
+
+#[test]
+fn intervals_of_shifts_along_both_axes_hold_them_as_often_as_they_say() {
+    let (mut inside, mut counted) = (0_usize, 0_usize);
+    for seed in 1..=40 {
+        let (found, horizontal, vertical) = along_both_axes(0.02, seed);
+        assert_eq!((found[1].horizontal_interval, found[1].vertical_interval), (None, None));
+        for (k, shift) in found.iter().enumerate().filter(|(k, _)| *k != 1) {
+            for (interval, truth) in
+                [(shift.horizontal_interval, horizontal[k]), (shift.vertical_interval, vertical[k])]
+            {
+                let [low, high] = interval.expect("an interval");
+                counted += 1;
+                inside += usize::from(low <= truth && truth <= high);
+            }
+        }
+    }
+    assert_eq!(counted, 240);
+    // ln a and ln b of a pair are correlated: 120 intervals that are independent have a standard deviation of 2 %.
+    let share = inside as f64 / counted as f64;
+    assert!((0.91..=0.99).contains(&share), "{share}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Intervals and criteria under noise.
 
-use piola_fit::fluids::{FlowData, Options, Weighting, fit_flow};
-use piola_fluids::{CarreauYasuda, HerschelBulkley, PowerLaw};
+use piola_fit::fluids::{FlowData, Intervals, Options, Weighting, fit_flow};
+use piola_fluids::{CarreauYasuda, Ellis, HerschelBulkley, PowerLaw};
 use piola_testkit::{Tol, assert_close};
 
 /// `SplitMix64` and the transform of Box and Muller.
@@ -106,4 +106,34 @@ fn statistics_of_a_power_law_equal_the_regression_of_logarithms() {
     let covariance = -consistency * x * variance / square;
     assert_close("covariance", &[fit.covariance.matrix[0][1]], &[covariance], tol);
     assert_eq!((fit.degrees_of_freedom, fit.starts_that_agree), (4, 2));
+}
+
+/// Ellis' fluid whose thinning has only begun at the fastest row: half stress and exponent are told badly, and not linearly.
+#[test]
+fn profile_intervals_of_a_badly_determined_fluid_hold_the_truth_as_often_as_they_say() {
+    let truth = [10.0, 40.0, 2.0];
+    let fluid = Ellis::new(truth[0], truth[1], truth[2]).expect("a fluid");
+    let mut normal = Normal(8);
+    let options = Options { intervals: Intervals::Profile, ..Options::default() };
+    let (mut held, mut widest) = ([0_u32; 3], 0.0_f64);
+    let trials = 150;
+    for _ in 0..trials {
+        let rates = (0..25).map(|i| (0.15 * f64::from(i) - 3.0).exp());
+        let rows: Vec<_> = rates
+            .map(|k| [k, piola_fluids::ViscometricFluid::shear_stress(&fluid, k) * (1.0 + 0.02 * normal.draw())])
+            .collect();
+        let data = FlowData::flow_curve(&rows).expect("data");
+        let fit = fit_flow::<Ellis, 3>(&[data], &[truth], &options).expect("a fit");
+        for ((parameter, truth), held) in fit.parameters.iter().zip(truth).zip(&mut held) {
+            // What is not determined is told to be so: its interval has no ends.
+            let [low, high] = parameter.interval.unwrap_or([0.0, f64::INFINITY]);
+            *held += u32::from(low <= truth && truth <= high);
+            widest = widest.max(high / parameter.value);
+        }
+    }
+    assert!(1.5 < widest, "{widest}");
+    for held in held {
+        // 142.5 ± 2.7: three deviations.
+        assert!(134 <= held && held <= 150, "{held}");
+    }
 }

@@ -1,0 +1,73 @@
+//! The command `nonlinear`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use piola_charts::Folder;
+use piola_measured::MeasuredError;
+use piola_measured::nonlinear::{
+    NonlinearRequest, NonlinearTable, RelaxationModes, compare_nonlinear_until, modes_of_spectrum,
+};
+
+use crate::Exit;
+use crate::commands::refused;
+use crate::flows::{settled, show, watched};
+use crate::interrupt::Interrupt;
+
+#[derive(Debug, Args)]
+pub(crate) struct NonlinearArguments {
+    /// The measurements: CSV with a shear rate or an extension rate, stresses or viscosities, N1, N2, and of start-up the time, with
+    /// units in the header; several files for several flows.
+    #[arg(required = true)]
+    pub(crate) data: Vec<PathBuf>,
+    /// A fluid: oldroyd-b, giesekus, linear-ptt, exponential-ptt, kbkz-rational or kbkz-exponential; several times for several. Without
+    /// any, all that have the measured responses.
+    #[arg(long = "fluid", value_name = "FLUID")]
+    pub(crate) fluids: Vec<String>,
+    /// The number of relaxation modes that are fitted, 1 to 6.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) modes: usize,
+    /// Hold the relaxation modes of this spectrum, the summary.json of `piola spectrum`.
+    #[arg(long, value_name = "FILE", conflicts_with = "modes")]
+    pub(crate) spectrum: Option<PathBuf>,
+    /// The probability of the intervals.
+    #[arg(long, value_name = "PROBABILITY", default_value_t = 0.95)]
+    pub(crate) confidence: f64,
+    /// Folder of the results instead of out/nonlinear-DATA.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print JSON to standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+pub(crate) fn fit(arguments: &NonlinearArguments) -> Exit {
+    let interrupt = Interrupt::listen();
+    let prepared = NonlinearTable::load(&arguments.data).and_then(|table| {
+        let mut request = NonlinearRequest::default();
+        request.fluids = arguments.fluids.iter().map(|name| Ok(name.parse()?)).collect::<Result<_, MeasuredError>>()?;
+        request.modes = match &arguments.spectrum {
+            Some(path) => modes_of_spectrum(path)?,
+            None => RelaxationModes::Fitted(arguments.modes),
+        };
+        request.confidence = arguments.confidence;
+        let found = watched(&table.name(), &interrupt, |watch| compare_nonlinear_until(&table, &request, watch))?;
+        if let (None, Some((_, refused))) = (found.fits().next(), found.refusals().next()) {
+            return Err(refused.clone().into());
+        }
+        let beside = || Path::new("out").join(format!("nonlinear-{}", table.name()));
+        let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
+        Ok((table, found, folder))
+    });
+    match prepared {
+        Ok((table, found, folder)) => {
+            let written = found.write(&folder, &table);
+            let text = if arguments.json { found.summary(&table) } else { found.table(&table) };
+            show(&text, arguments.json, &folder, &written);
+            let refusals: Vec<String> =
+                found.refusals().map(|(fluid, refusal)| format!("{fluid}: {refusal}")).collect();
+            settled(&found, found.is_complete(), &refusals, !arguments.fluids.is_empty(), &written)
+        }
+        Err(error) => refused(&error, arguments.json),
+    }
+}

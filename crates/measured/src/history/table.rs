@@ -1,0 +1,184 @@
+//! Tables of time, stretch and stress.
+
+use std::path::{Path, PathBuf};
+
+use piola_document::units::Dimension;
+use piola_fit::history::HistoryTest;
+use piola_fit::sides::Loading;
+
+use crate::MeasuredError;
+use crate::fitting::{TableMistake, TableReport};
+use crate::sheet::{Row, Sheet, read, spelled, unknown};
+use crate::sides::columns::{self as words, Column};
+
+/// Tests of one material along time.
+///
+/// # Example
+/// ```
+/// use piola_measured::history::HistoryMeasurements;
+/// let text = "time [min],strain [%],stress [kPa]\n0,0,0\n1,10,5\n2,10,4\n";
+/// let measurements = HistoryMeasurements::parse("skin.csv", text)?;
+/// assert_eq!(measurements.tests[0].rows(), [[0.0, 1.0, 0.0], [60.0, 1.1, 5.0], [120.0, 1.1, 4.0]]);
+/// assert_eq!(measurements.unit.as_deref(), Some("kPa"));
+/// let wrong = HistoryMeasurements::parse("skin.csv", "time [s],stretch,stress\n2,1.1,2\n1,1.2,3\n");
+/// assert!(wrong.unwrap_err().to_string().starts_with("skin.csv:3: "));
+/// # Ok::<(), piola_measured::MeasuredError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct HistoryMeasurements {
+    /// The file.
+    pub path: PathBuf,
+    /// The unit of the stresses, as the file names it.
+    pub unit: Option<String>,
+    /// The tests.
+    pub tests: Vec<HistoryTest>,
+    /// What was read in a way that a reader must know, as sentences without a full stop.
+    pub notes: Vec<String>,
+}
+
+impl HistoryMeasurements {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Unreadable`], [`MeasuredError::TooLarge`], [`MeasuredError::NotText`]; [`MeasuredError::Table`] with every
+    /// mistake and its line.
+    pub fn load(path: &Path) -> Result<Self, MeasuredError> {
+        Self::parse(path, &read(path)?)
+    }
+
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Table`].
+    pub fn parse(path: impl Into<PathBuf>, text: &str) -> Result<Self, MeasuredError> {
+        let path = path.into();
+        match tests(text) {
+            Ok((unit, tests, notes)) => Ok(Self { path, unit, tests, notes }),
+            Err(mistakes) => Err(MeasuredError::Table(TableReport::new(path, mistakes))),
+        }
+    }
+
+    /// The name of the file without folder and ending.
+    #[must_use]
+    pub fn name(&self) -> String {
+        self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    }
+}
+
+const TIME: &[&str] = &["time", "t"];
+const SPECIMEN: &[&str] = &["specimen", "sample", "cycle test"];
+const SHEAR: &[&str] = &["shear", "amount of shear", "shear strain", "gamma", "γ"];
+
+fn is_known(plain: &str) -> bool {
+    let names = [TIME, SPECIMEN, SHEAR, words::MODE, words::STRETCH, words::STRAIN, words::STRESS];
+    names.iter().any(|names| names.contains(&plain))
+}
+
+/// The rows of one test, with the line of each.
+struct Group {
+    loading: Loading,
+    specimen: String,
+    rows: Vec<(u64, [f64; 3])>,
+}
+
+/// Unit, tests and notes of a table.
+type Tests = (Option<String>, Vec<HistoryTest>, Vec<String>);
+
+fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
+    let sheet = Sheet::parse(text, &is_known)?;
+    let one = |mistake| vec![mistake];
+    let missing = |what: &str, valid: &'static str| {
+        let what = format!("no column is a {what}: the columns are {}", sheet.names());
+        vec![TableMistake::new(sheet.header_line, what, valid)]
+    };
+    let mut notes = Vec::new();
+    let time = words::find(&sheet, TIME).ok_or_else(|| missing("time", "a column `time [s]`"))?;
+    let to_seconds = match sheet.headings[time].unit.as_deref().map(|text| (text, spelled(text))) {
+        None => {
+            notes.push(format!("`{}` has no unit: read as s", sheet.headings[time].written));
+            1.0
+        }
+        Some((_, Some(unit))) if unit.dimension == Dimension::TIME => unit.to_si(1.0),
+        Some((text, _)) => return Err(one(TableMistake::new(sheet.header_line, unknown(text), "s, ms, min or h"))),
+    };
+    let shear = words::find(&sheet, SHEAR);
+    let along = match shear {
+        Some(_) => Column::of(&sheet, SHEAR, &[]),
+        None => Column::of(&sheet, words::STRETCH, words::STRAIN),
+    };
+    let along = along.map_err(one)?;
+    let along = along.ok_or_else(|| {
+        missing("stretch or a strain", "`stretch`, `strain [%]`, or in simple shear `amount of shear`")
+    })?;
+    let stress = words::find(&sheet, words::STRESS).ok_or_else(|| missing("stress", "a column `stress [MPa]`"))?;
+    let unit = words::stress_unit(&sheet, stress).map_err(one)?;
+    let (mode, specimen) = (words::find(&sheet, words::MODE), words::find(&sheet, SPECIMEN));
+    let mut mistakes = Vec::new();
+    let mut groups: Vec<Group> = Vec::new();
+    for row in &sheet.rows {
+        let loading = match (mode, shear) {
+            (None, Some(_)) => Ok(Loading::SimpleShear),
+            _ => words::loading(row, mode),
+        };
+        let read = loading.and_then(|loading| Ok((loading, numbers(&sheet, row, (time, to_seconds), along, stress)?)));
+        let (loading, [t, x, p]) = match read {
+            Ok(read) => read,
+            Err(mistake) => {
+                mistakes.push(mistake);
+                continue;
+            }
+        };
+        let specimen = specimen.and_then(|at| row.fields.get(at)).unwrap_or_default();
+        let point = (row.line, [t, along.stretch(x, loading), p]);
+        match groups.iter_mut().find(|group| group.loading == loading && group.specimen == specimen) {
+            Some(group) => group.rows.push(point),
+            None => groups.push(Group { loading, specimen: specimen.to_owned(), rows: vec![point] }),
+        }
+    }
+    let mut tests = Vec::new();
+    for Group { loading, specimen, rows } in groups {
+        let name =
+            if specimen.is_empty() { loading.name().to_owned() } else { format!("{} {specimen}", loading.name()) };
+        let numbers: Vec<[f64; 3]> = rows.iter().map(|(_, numbers)| *numbers).collect();
+        // The first row that is refused is the last of the shortest table that is.
+        let is_refused = |count: &usize| HistoryTest::new(&*name, loading, &numbers[..*count]).is_err();
+        match HistoryTest::new(&*name, loading, &numbers) {
+            Ok(test) => tests.push(test),
+            Err(error) => {
+                let line = (1..=numbers.len()).find(is_refused).map_or(sheet.header_line, |count| rows[count - 1].0);
+                let valid = "uniaxial, equibiaxial, planar or simple shear; times that do not fall; 0 < stretch";
+                mistakes.push(TableMistake::new(line, error.to_string(), valid));
+            }
+        }
+    }
+    if tests.is_empty() && mistakes.is_empty() {
+        mistakes.push(TableMistake::new(sheet.last, "the table has a header and no rows", "a row for each point"));
+    }
+    if !mistakes.is_empty() {
+        return Err(mistakes);
+    }
+    if along.is_strain {
+        notes.push("strains are engineering strains: stretch = 1 + strain".to_owned());
+    }
+    Ok((unit, tests, notes))
+}
+
+/// Time in seconds, deformation and stress of a row.
+fn numbers(
+    sheet: &Sheet,
+    row: &Row,
+    (time, to_seconds): (usize, f64),
+    along: Column,
+    stress: usize,
+) -> Result<[f64; 3], TableMistake> {
+    let number = |at: usize| {
+        let text = row.fields.get(at).unwrap_or_default();
+        let wrong = || {
+            let what = format!("`{}` is `{text}`", sheet.headings[at].written);
+            TableMistake::new(row.line, what, "a finite number")
+        };
+        sheet.number(text).ok_or_else(wrong)
+    };
+    Ok([to_seconds * number(time)?, number(along.at)?, number(stress)?])
+}

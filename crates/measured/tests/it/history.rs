@@ -1,0 +1,102 @@
+//! Tables of time, stretch and stress, and laws with history fitted to them.
+
+use piola_fit::history::{HistoryModel as _, HistoryTest, StepControl};
+use piola_fit::sides::Loading;
+use piola_measured::history::{AnyHistoryModel, HistoryMeasurements, HistoryRequest, compare_histories};
+use piola_testkit::{Tol, assert_each_close};
+
+/// A table of the stresses that a law computes along rows of time and deformation.
+fn table(law: AnyHistoryModel, parameters: &[f64], loading: Loading, rows: &[[f64; 2]]) -> String {
+    let path: Vec<[f64; 3]> = rows.iter().map(|[t, x]| [*t, *x, 0.0]).collect();
+    let path = HistoryTest::new("path", loading, &path).expect("a path");
+    let stresses = law.stresses(parameters, &path, &StepControl::default()).expect("stresses");
+    let header = format!("# mode: {}\nmode,time [s],stretch,stress [MPa]\n", loading.name());
+    rows.iter()
+        .zip(stresses)
+        .fold(header, |text, ([t, x], stress)| text + &format!("{},{t:?},{x:?},{stress:?}\n", loading.name()))
+}
+
+fn fitted(law: AnyHistoryModel, text: &str, bounds: &[&str]) -> Vec<f64> {
+    let measurements = HistoryMeasurements::parse("test.csv", text).unwrap_or_else(|error| panic!("{error}"));
+    let request = bounds.iter().try_fold(HistoryRequest::of(vec![law]), |request, text| request.with_bound(text));
+    let request = request.unwrap_or_else(|error| panic!("{error}"));
+    let found = compare_histories(&measurements, &request).unwrap_or_else(|error| panic!("{error}"));
+    let (_, fit) = found.fits().next().expect("a fit");
+    assert!(fit.outcome.is_converged(), "{:?}", fit.outcome);
+    fit.values()
+}
+
+#[test]
+fn a_hold_and_cycles_give_the_parameters_back_without_a_start() {
+    const FOUND: Tol =
+        Tol::stated(1e-7, "steps of the law are controlled to 1e-10, derivatives are differences over 1e-5");
+    // Pulled within a second to half as long again and held.
+    let rows = [[1.0, 1.5], [2.0, 1.5], [4.0, 1.5], [8.0, 1.5], [16.0, 1.5]];
+    let made = [0.4, 60.0, 0.8, 60.0, 3.0];
+    let law = AnyHistoryModel::ReeseGovindjee;
+    let held =
+        ["reese-govindjee.first_lame_parameter=60..60", "reese-govindjee.overstress_first_lame_parameter=60..60"];
+    let found = fitted(law, &table(law, &made, Loading::Uniaxial, &rows), &held);
+    assert_each_close("reese-govindjee", &found, &made, FOUND);
+    // Two cycles, the second further.
+    let amounts = [0.5, 1.0, 0.5, 0.25, 0.75, 1.25, 1.5, 1.0, 0.5, 0.25];
+    let rows: Vec<[f64; 2]> = amounts.iter().zip(1..).map(|(k, t)| [f64::from(t), *k]).collect();
+    let made = [0.7, 70.0, 1.8, 0.2, 0.1];
+    let law = AnyHistoryModel::OgdenRoxburgh;
+    let held = ["ogden-roxburgh.first_lame_parameter=70..70"];
+    let found = fitted(law, &table(law, &made, Loading::SimpleShear, &rows), &held);
+    assert_each_close("ogden-roxburgh", &found, &made, FOUND);
+}
+
+#[test]
+fn specimens_are_tests_of_their_own_and_results_are_written() {
+    let text = "specimen;mode;time [ms];strain [%];stress [kPa]\na;uniaxial;500;10;20\na;uniaxial;1000;20;35\n\
+                a;uniaxial;3000;20;30\nb;planar;500;10;25\nb;planar;2000;10;22\nb;planar;9000;10;20\nb;planar;20000;10;19\n";
+    let measurements = HistoryMeasurements::parse("gel.csv", text).unwrap_or_else(|error| panic!("{error}"));
+    let names: Vec<&str> = measurements.tests.iter().map(HistoryTest::name).collect();
+    assert_eq!((names, measurements.unit.as_deref()), (vec!["uniaxial a", "planar b"], Some("kPa")));
+    assert_eq!(measurements.tests[0].rows()[2..], [[3.0, 1.2, 30.0]]);
+    // One parameter is left.
+    let held = ["first_lame_parameter=5e3..5e3", "overstress_first_lame_parameter=5e3..5e3"];
+    let held = held.into_iter().chain(["overstress_shear_modulus=50..50", "viscosity=40..40"]);
+    let request = held.fold(HistoryRequest::of(vec![AnyHistoryModel::ReeseGovindjee]), |request, bound| {
+        request.with_bound(&format!("reese-govindjee.{bound}")).unwrap_or_else(|error| panic!("{error}"))
+    });
+    let found = compare_histories(&measurements, &request).unwrap_or_else(|error| panic!("{error}"));
+    let shown = found.table(&measurements);
+    assert!(shown.contains("planar b: RMS residual") && shown.contains("kPa s"), "{shown}");
+    let path = std::env::temp_dir().join(format!("piola-history-{}", std::process::id()));
+    let folder = piola_charts::Folder::prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let written = found.write(&folder, &measurements);
+    assert!(written.failures.is_empty() && written.files.len() == 3, "{written:?}");
+    let predictions = std::fs::read_to_string(path.join("predictions.csv")).unwrap_or_default();
+    assert!(predictions.starts_with("test,time [s],stretch,stress [kPa],reese-govindjee\nuniaxial a,0.5,1.1,20.0,"));
+    let _ = std::fs::remove_dir_all(&path);
+}
+
+#[test]
+fn histories_that_cannot_be_read_are_refused_with_their_line() {
+    for (text, message) in [
+        ("stretch,stress\n1.1,2\n", "f.csv:1: no column is a time"),
+        ("time [s],stress\n1,2\n", "f.csv:1: no column is a stretch"),
+        ("time [s],stretch\n1,2\n", "f.csv:1: no column is a stress"),
+        ("time [m],stretch,stress\n1,2,3\n", "f.csv:1: `m` is another unit; valid: s, ms, min or h"),
+        ("time [s],stretch,stress\n1,1.1,1\n0.5,1.2,2\n", "f.csv:3: test `uniaxial`, point 1: the time 0.5 s"),
+        ("time [s],stretch,stress\n1,-1.1,1\n", "f.csv:2: test `uniaxial`, point 0: the stretch -1.1"),
+        ("time [s],stretch,stress\n1,1.1,nan\n", "f.csv:2: `stress` is `nan`"),
+        ("mode,time [s],stretch,stress\nvolumetric,1,1.1,2\n", "f.csv:2: test `volumetric`: laws with history"),
+        ("time [s],stretch,stress\n", "f.csv:1: the table has a header and no rows"),
+    ] {
+        let told = HistoryMeasurements::parse("f.csv", text).expect_err(message).to_string();
+        assert!(told.starts_with(message), "{told}");
+    }
+    let request = HistoryRequest::of(vec![AnyHistoryModel::OgdenRoxburgh]);
+    for text in ["ogden-roxburgh.share", "share=0..1", "ogden-roxburgh.share=a..1", "gent.Jm=1..2"] {
+        assert!(request.clone().with_bound(text).is_err(), "{text}");
+    }
+    let other = request.with_bound("viscoplastic.viscosity=0..0").unwrap_or_else(|error| panic!("{error}"));
+    let text = "time [s],stretch,stress\n1,1.1,2\n";
+    let measurements = HistoryMeasurements::parse("f.csv", text).unwrap_or_else(|error| panic!("{error}"));
+    let told = compare_histories(&measurements, &other).expect_err("another law").to_string();
+    assert!(told.starts_with("`viscoplastic.viscosity` is not accepted"), "{told}");
+}
