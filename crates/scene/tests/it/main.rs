@@ -13,8 +13,8 @@ mod reference;
 #[cfg(feature = "robots")]
 mod robot;
 mod run;
-mod schema;
 mod settings;
+mod shipped;
 #[cfg(feature = "solutions")]
 mod solids;
 mod studies;
