@@ -20,7 +20,7 @@ pub mod run;
 mod scene_file;
 pub mod studies;
 
-pub use error::SceneError;
+pub use error::{CheckpointError, SceneError};
 pub use model::Scene;
 pub use piola_document::{Document, Report};
 pub use piola_schema as schema;
