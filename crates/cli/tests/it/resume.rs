@@ -96,7 +96,12 @@ fn a_checkpoint_of_another_scene_or_version_and_one_that_is_torn_are_refused() {
     refused(&[], "the checkpoint is of Piola 0.0.9");
     write(&text[..text.len() / 2]);
     refused(&[], "cannot be read");
-    refused(&["--checkpoint", "-1"], "a number of seconds from 0 to 1e9 is needed");
+    write(&text);
+    refused(&["--set", "time.revolutions=1501"], "the checkpoint is of another run");
+    refused(&["--set", "integrator.tolerance=1e-11"], "the checkpoint is of another run");
+    let negative = folder.piola(&["run", scene, "--checkpoint=-1"]);
+    assert_eq!(negative.status.code(), Some(2));
+    assert!(err(&negative).contains("a number of seconds from 0 to 1e9 is needed"), "{}", err(&negative));
 }
 
 #[test]

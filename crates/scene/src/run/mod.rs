@@ -114,7 +114,7 @@ fn answered(
     observer: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Run {
     if run.outcome == Outcome::Completed
-        && let Some((answers, outcome)) = answers::answers(scene, last, observer)
+        && let Some((answers, outcome)) = answers::answers(scene, &run.history, last, observer)
     {
         run.answers = Some(answers);
         run.outcome = outcome;
@@ -158,6 +158,8 @@ pub struct Prediction {
 ///     eccentricity = 0.5
 ///     [time]
 ///     end = {end}
+///     [integrator]
+///     tolerance = 1e-12
 /// "));
 /// let long = Scene::from_document(&orbit("1e30"))?;
 /// assert!(run::trial(&long, &Plan::of(&long)).unwrap().seconds > 1e9);

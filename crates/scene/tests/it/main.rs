@@ -8,6 +8,7 @@ mod constraints;
 mod figures;
 mod forces;
 mod hamiltonian;
+mod hostile;
 mod plan;
 mod reference;
 #[cfg(feature = "robots")]

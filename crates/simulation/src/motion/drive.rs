@@ -199,6 +199,31 @@ impl<'o> Driver<'o> {
         Ok(())
     }
 
+    /// A closed form of the state, written by `at` for any time, from instant to instant. No force is evaluated; an instant
+    /// counts as a step.
+    pub(super) fn closed_form(
+        &mut self,
+        at: &mut dyn FnMut(f64, &mut [f64]),
+        state: &mut State,
+        reading: &mut dyn Reading,
+    ) {
+        self.begin(state, reading);
+        while let Some(&instant) = self.instants.get(self.next) {
+            at(instant, &mut state.values);
+            state.time = instant;
+            reading.record(instant, &state.values, &mut self.history);
+            let invariants = reading.invariants(instant, &state.values);
+            self.history.invariants.push(invariants);
+            self.next += 1;
+            self.report.steps += 1;
+            if self.step_done(instant).is_break() {
+                self.report.ending = Ending::Stopped;
+                break;
+            }
+            self.keep(|| Stage::Fixed(state.clone()));
+        }
+    }
+
     /// An explicit composition.
     pub(super) fn separable(
         &mut self,
@@ -252,6 +277,7 @@ impl<'o> Driver<'o> {
             Method::Nystrom86 { .. } | Method::Nystrom1210 { .. } => {
                 Err("a Nyström pair needs forces that depend on positions alone".to_string())
             }
+            Method::ClosedForm => Err("a closed form is there for bodies about a fixed centre alone".to_string()),
         }
     }
 

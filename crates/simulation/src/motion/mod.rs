@@ -3,7 +3,7 @@
 //! | system | equations | invariants |
 //! |---|---|---|
 //! | [`Gravitation`] | ẍᵢ = Σⱼ Gmⱼ (xⱼ − xᵢ)/(rᵢⱼ² + ε²)^(3/2), with a post-Newtonian term on request | energy, momentum, angular momentum |
-//! | [`Central`] | ẍᵢ = −Gm xᵢ/rᵢ³ | energy, angular momentum |
+//! | [`Central`] | ẍᵢ = −Gm xᵢ/rᵢ³, or Kepler's closed form with [`Method::ClosedForm`] | energy, angular momentum |
 //! | [`Mechanism`](crate::joints::Mechanism) | Lagrange's of its tree of joints; Hamilton's with [`Method::GaussLegendre`] | energy less the works of its forces |
 //! | [`PhaseSystem`](crate::phase::PhaseSystem) | q̇ = ∂H/∂p, ṗ = −∂H/∂q | energy less ∫ ∂H/∂t dt |
 
