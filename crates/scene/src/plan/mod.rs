@@ -270,7 +270,7 @@ fn steps(instants: &[f64], step: f64) -> u64 {
     // As the integrators count: an interval that is a whole number of steps but for rounding is not given one more.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count, and the cast saturates")]
     let count = |pair: &[f64]| ((pair[1] - pair[0]).abs() / step * (1.0 - 4.0 * f64::EPSILON)).ceil() as u64;
-    instants.windows(2).map(count).sum()
+    instants.windows(2).map(count).fold(0, u64::saturating_add)
 }
 
 fn describe(system: &System) -> String {
