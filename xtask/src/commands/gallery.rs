@@ -17,16 +17,15 @@ pub(super) const COMMAND: Command = Command {
 `cargo xtask tidy` checks that the page has every scene.",
     prepare: |shell, workspace, options| {
         let mut steps = Vec::new();
-        let program = match options.value("--program")? {
-            Some(path) => PathBuf::from(path),
-            None => {
-                steps.push(Step::program(
-                    "gallery: program",
-                    cmd!(shell, "cargo build --quiet --release --package piola-cli --features robots,spectral"),
-                    "the program must build with its features",
-                ));
-                Workspace::target(shell)?.join("release/piola")
-            }
+        let program = if let Some(path) = options.value("--program")? {
+            PathBuf::from(path)
+        } else {
+            steps.push(Step::program(
+                "gallery: program",
+                cmd!(shell, "cargo build --quiet --release --package piola-cli --features robots,spectral"),
+                "the program must build with its features",
+            ));
+            Workspace::target(shell)?.join("release/piola")
         };
         steps.push(Step::check(
             "gallery",

@@ -111,13 +111,3 @@ pub trait CheckpointKeeper {
     /// Takes a checkpoint.
     fn keep(&mut self, checkpoint: &MotionCheckpoint);
 }
-
-/// Keeps no checkpoints.
-pub(super) struct NoCheckpoints;
-
-impl CheckpointKeeper for NoCheckpoints {
-    fn is_due(&mut self) -> bool {
-        false
-    }
-    fn keep(&mut self, _checkpoint: &MotionCheckpoint) {}
-}

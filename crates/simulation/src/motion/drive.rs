@@ -24,7 +24,7 @@ pub(super) trait Reading {
 }
 
 /// The observer of a run: it sees the progress after every step and may stop the run.
-pub(super) type Observer<'o> = &'o mut dyn FnMut(Progress) -> ControlFlow<()>;
+pub(super) type Observer<'o> = &'o mut (dyn FnMut(Progress) -> ControlFlow<()> + 'o);
 
 /// Takes a driver and a state to an instant.
 type Advance<'a, 'o> = &'a mut dyn FnMut(&mut Driver<'o>, &mut State, f64) -> Result<Report, IntegratorsError<String>>;
@@ -60,17 +60,19 @@ pub(super) struct Driver<'o> {
     left: u32,
     /// Whether the observer has stopped the run.
     stopped: bool,
-    marks: Marks,
-    keeper: &'o mut dyn CheckpointKeeper,
+    keeper: Option<Keeper<'o>>,
     resumed: Option<MotionCheckpoint>,
 }
+
+/// Who keeps the checkpoints of a run, and the marks that they bear.
+pub(super) type Keeper<'o> = (&'o mut dyn CheckpointKeeper, Marks);
 
 impl<'o> Driver<'o> {
     pub(super) fn new(
         names: Vec<String>,
         timetable: &Timetable,
         observer: Observer<'o>,
-        (keeper, marks, resumed): (&'o mut dyn CheckpointKeeper, Marks, Option<MotionCheckpoint>),
+        (keeper, resumed): (Option<Keeper<'o>>, Option<MotionCheckpoint>),
     ) -> Self {
         let span = timetable.span();
         let mut landings = timetable.landings.clone();
@@ -90,7 +92,6 @@ impl<'o> Driver<'o> {
             steps: 0,
             left: PIECE,
             stopped: false,
-            marks,
             keeper,
             resumed,
         }
@@ -126,11 +127,12 @@ impl<'o> Driver<'o> {
 
     /// Hands a checkpoint to the keeper if one is due.
     fn keep(&mut self, stage: impl FnOnce() -> Stage) {
-        if !self.keeper.is_due() {
+        let Some((keeper, marks)) = &mut self.keeper else { return };
+        if !keeper.is_due() {
             return;
         }
         let checkpoint = MotionCheckpoint {
-            marks: self.marks.clone(),
+            marks: marks.clone(),
             stage: stage(),
             report: self.report,
             steps: self.steps,
@@ -138,7 +140,7 @@ impl<'o> Driver<'o> {
             landing: self.landing,
             history: core::mem::take(&mut self.history),
         };
-        self.keeper.keep(&checkpoint);
+        keeper.keep(&checkpoint);
         self.history = checkpoint.history;
     }
 

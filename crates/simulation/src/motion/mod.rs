@@ -30,8 +30,8 @@ pub use system::{Central, Gravitation, MassPoint, NEWTONIAN_CONSTANT, Orbiter, P
 pub use timetable::{TimeSpan, Timetable};
 
 use crate::{Outcome, SimulationError};
-use checkpoint::{Marks, NoCheckpoints};
-use drive::Driver;
+use checkpoint::Marks;
+use drive::{Driver, Keeper, Observer};
 
 /// The progress of a run.
 ///
@@ -100,7 +100,7 @@ pub fn simulate(
     timetable: &Timetable,
     observer: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> MotionRun {
-    driven(system, method, timetable, (&mut NoCheckpoints, None), observer)
+    driven(system, method, timetable, (None, None), observer)
 }
 
 /// As [`simulate`], with checkpoints: the run begins at one if there is one, and gives others to their keeper.
@@ -150,8 +150,8 @@ pub fn resume(
     if let Some(checkpoint) = &checkpoint {
         checkpoint.check(system, method, timetable)?;
     }
-    let mut nothing = NoCheckpoints;
-    let keeper = if gives_checkpoints(system) { keeper } else { &mut nothing };
+    let keeper: Option<Keeper<'_>> =
+        if gives_checkpoints(system) { Some((keeper, Marks::of(system, method, timetable))) } else { None };
     Ok(driven(system, method, timetable, (keeper, checkpoint), observer))
 }
 
@@ -161,16 +161,15 @@ pub fn gives_checkpoints(system: &System) -> bool {
     !matches!(system, System::Mechanism(system) if !system.constraints.is_empty())
 }
 
-fn driven(
+fn driven<'o>(
     system: &System,
     method: Method,
     timetable: &Timetable,
-    (keeper, checkpoint): (&mut dyn CheckpointKeeper, Option<MotionCheckpoint>),
-    observer: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    (keeper, checkpoint): (Option<Keeper<'o>>, Option<MotionCheckpoint>),
+    observer: Observer<'o>,
 ) -> MotionRun {
     let names = system.names().into_iter().map(str::to_string).collect();
-    let marks = Marks::of(system, method, timetable);
-    let mut driver = Driver::new(names, timetable, observer, (keeper, marks, checkpoint));
+    let mut driver = Driver::new(names, timetable, observer, (keeper, checkpoint));
     let result = match system {
         System::Gravitation(system) => systems::gravitation(system, method, &mut driver),
         System::Mechanism(system) => mechanism::mechanism(system, method, &mut driver),

@@ -1,9 +1,9 @@
 //! Poisson brackets along a motion, and the test of a change of variables.
 
-use piola_hamiltonian::{CanonicalTest, HamiltonianError, PhaseMap, canonical_test, poisson_bracket};
+use piola_hamiltonian::{HamiltonianError, PhaseFunction as _, PhaseMap, canonical_test, poisson_bracket};
 use piola_numerics::Real;
 
-use super::{PhaseExpression, PhaseSystem};
+use super::{PhaseAnswers, PhaseExpression, PhaseSystem};
 use crate::SimulationError;
 use crate::expression::Expression;
 use crate::forces::in_coordinates;
@@ -76,7 +76,6 @@ impl NewVariables {
 
 impl PhaseMap for NewVariables {
     fn map<T: Real>(&self, q: &[T], p: &[T], t: T, new: &mut [T]) -> Result<(), HamiltonianError> {
-        use piola_hamiltonian::PhaseFunction as _;
         for (new, function) in new.iter_mut().zip(&self.functions) {
             *new = function.value(q, p, t);
         }
@@ -123,27 +122,26 @@ impl PhaseSystem {
         self.questions.brackets.iter().map(value).collect()
     }
 
-    /// The brackets at every recorded instant, and the worst canonical test of the new variables among these instants, with its
-    /// instant (s); or what is not defined, and when.
-    pub(super) fn along(&self, history: &History) -> Result<(Vec<Vec<f64>>, Option<(f64, CanonicalTest)>), String> {
-        let (mut brackets, mut worst) = (Vec::new(), None::<(f64, CanonicalTest)>);
+    /// Finds the brackets at every recorded instant, and the worst canonical test of the new variables among these instants; or
+    /// says what is not defined, and when.
+    pub(super) fn look_along(&self, history: &History, answers: &mut PhaseAnswers) -> Result<(), String> {
         if self.questions.brackets.is_empty() && self.questions.new_variables.is_none() {
-            return Ok((brackets, worst));
+            return Ok(());
         }
         for (&t, state) in history.times.iter().zip(&history.coordinates) {
             let (q, p) = state.split_at(self.freedom());
             if !self.questions.brackets.is_empty() {
                 let values = self.bracket_values(q, p, t);
-                brackets.push(values.map_err(|error| format!("a bracket at {t} s: {error}"))?);
+                answers.brackets.push(values.map_err(|error| format!("a bracket at {t} s: {error}"))?);
             }
             if let Some(variables) = &self.questions.new_variables {
                 let test = canonical_test(variables, q, p, t);
                 let test = test.map_err(|error| format!("the new variables at {t} s: {error}"))?;
-                if worst.is_none_or(|(_, worst)| worst.relative < test.relative) {
-                    worst = Some((t, test));
+                if answers.canonical.is_none_or(|(_, worst)| worst.relative < test.relative) {
+                    answers.canonical = Some((t, test));
                 }
             }
         }
-        Ok((brackets, worst))
+        Ok(())
     }
 }

@@ -94,9 +94,8 @@ impl PhaseSystem {
         observer: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> (PhaseAnswers, Outcome) {
         let mut answers = PhaseAnswers::default();
-        match self.along(history) {
-            Ok((brackets, canonical)) => (answers.brackets, answers.canonical) = (brackets, canonical),
-            Err(why) => return (answers, Outcome::Failed(why)),
+        if let Err(why) = self.look_along(history, &mut answers) {
+            return (answers, Outcome::Failed(why));
         }
         let mut stopped = false;
         let mut watch = |share: f64| {
