@@ -1,13 +1,12 @@
 //! Poisson brackets along a motion, and the test of a change of variables.
 
-use piola_hamiltonian::{HamiltonianError, PhaseFunction as _, PhaseMap, canonical_test, poisson_bracket};
+use piola_hamiltonian::{HamiltonianError, PhaseFunction as _, PhaseMap, poisson_bracket};
 use piola_numerics::Real;
 
-use super::{PhaseAnswers, PhaseExpression, PhaseSystem};
+use super::{PhaseExpression, PhaseSystem};
 use crate::SimulationError;
 use crate::expression::Expression;
 use crate::forces::in_coordinates;
-use crate::motion::History;
 
 /// A Poisson bracket with a name.
 ///
@@ -120,28 +119,5 @@ impl PhaseSystem {
             poisson_bracket(&bracket.first, bracket.second.as_ref().unwrap_or(&self.hamiltonian), q, p, t)
         };
         self.questions.brackets.iter().map(value).collect()
-    }
-
-    /// Finds the brackets at every recorded instant, and the worst canonical test of the new variables among these instants; or
-    /// says what is not defined, and when.
-    pub(super) fn look_along(&self, history: &History, answers: &mut PhaseAnswers) -> Result<(), String> {
-        if self.questions.brackets.is_empty() && self.questions.new_variables.is_none() {
-            return Ok(());
-        }
-        for (&t, state) in history.times.iter().zip(&history.coordinates) {
-            let (q, p) = state.split_at(self.freedom());
-            if !self.questions.brackets.is_empty() {
-                let values = self.bracket_values(q, p, t);
-                answers.brackets.push(values.map_err(|error| format!("a bracket at {t} s: {error}"))?);
-            }
-            if let Some(variables) = &self.questions.new_variables {
-                let test = canonical_test(variables, q, p, t);
-                let test = test.map_err(|error| format!("the new variables at {t} s: {error}"))?;
-                if answers.canonical.is_none_or(|(_, worst)| worst.relative < test.relative) {
-                    answers.canonical = Some((t, test));
-                }
-            }
-        }
-        Ok(())
     }
 }

@@ -2,7 +2,9 @@
 
 use core::ops::ControlFlow;
 
-use piola_hamiltonian::{CanonicalTest, LyapunovExponents, PhasePoint, PoincareSection, lyapunov_exponents_observed};
+use piola_hamiltonian::{
+    CanonicalTest, LyapunovExponents, PhasePoint, PoincareSection, canonical_test, lyapunov_exponents_observed,
+};
 use piola_integrators::Tolerance;
 
 use super::{BracketQuestion, NewVariables, PhaseExpression, PhaseSystem};
@@ -110,6 +112,29 @@ impl PhaseSystem {
             Ok(()) => Outcome::Completed,
         };
         (answers, outcome)
+    }
+
+    /// Finds the brackets at every recorded instant, and the worst canonical test of the new variables among these instants; or
+    /// says what is not defined, and when.
+    fn look_along(&self, history: &History, answers: &mut PhaseAnswers) -> Result<(), String> {
+        if self.questions.brackets.is_empty() && self.questions.new_variables.is_none() {
+            return Ok(());
+        }
+        for (&t, state) in history.times.iter().zip(&history.coordinates) {
+            let (q, p) = state.split_at(self.freedom());
+            if !self.questions.brackets.is_empty() {
+                let values = self.bracket_values(q, p, t);
+                answers.brackets.push(values.map_err(|error| format!("a bracket at {t} s: {error}"))?);
+            }
+            if let Some(variables) = &self.questions.new_variables {
+                let test = canonical_test(variables, q, p, t);
+                let test = test.map_err(|error| format!("the new variables at {t} s: {error}"))?;
+                if answers.canonical.is_none_or(|(_, worst)| worst.relative < test.relative) {
+                    answers.canonical = Some((t, test));
+                }
+            }
+        }
+        Ok(())
     }
 
     fn find(
