@@ -40,7 +40,7 @@ const VALUES: [&str; 24] = [
 const LONGEST: Duration = Duration::from_secs(20);
 
 /// A scene that is accepted is tried once in so many times: a trial takes some hundredths of a second.
-const TRIED: usize = 60;
+const TRIED: usize = 20;
 
 /// The texts of the scenes, each with its folder; none where the package stands alone.
 fn scenes() -> Vec<(String, String)> {
@@ -127,7 +127,7 @@ fn absurd_values_of_every_key_are_refused_at_a_place_or_planned() {
     assert!(broke.is_empty(), "these broke, for the reasons above:\n{}", broke.join("\n"));
     let Counts { refused, planned, tried } = counts;
     assert!(
-        scenes.is_empty() || (550 <= refused && 50 <= planned && 5 <= tried),
+        scenes.is_empty() || (550 <= refused && 50 <= planned && 2 <= tried),
         "{refused} refused, {planned} planned, {tried} tried"
     );
 }

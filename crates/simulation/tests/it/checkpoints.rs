@@ -14,13 +14,13 @@ use piola_simulation::{Outcome, SimulationError};
 
 /// Keeps some of the checkpoints, as text.
 #[derive(Default)]
-struct Texts {
+struct Kept {
     asked: u32,
     every: u32,
     texts: Vec<String>,
 }
 
-impl CheckpointKeeper for Texts {
+impl CheckpointKeeper for Kept {
     fn is_due(&mut self) -> bool {
         self.asked += 1;
         self.asked.is_multiple_of(self.every)
@@ -40,7 +40,7 @@ fn run(
     from: Option<MotionCheckpoint>,
     every: u32,
 ) -> (MotionRun, Vec<String>) {
-    let mut keeper = Texts { every, ..Texts::default() };
+    let mut keeper = Kept { every, ..Kept::default() };
     let run = resume(system, method, timetable, from, &mut keeper, &mut |_| ControlFlow::Continue(()))
         .unwrap_or_else(|error| panic!("{error}"));
     (run, keeper.texts)
@@ -86,6 +86,7 @@ fn continued_orbits_equal_unbroken_ones_bit_by_bit_with_every_method() {
     ] {
         assert!(4 <= compare(&orbits(), method, &timetable, 3), "{method}");
     }
+    assert_eq!(compare(&orbits(), Method::ClosedForm, &timetable, 1), 6);
     for method in [
         Method::Composition { order: Order::Eight, step: 1e-3 },
         Method::GaussLegendre { order: Order::Four, step: 1e-3 },
