@@ -8,6 +8,7 @@ mod docs;
 mod errors;
 mod features;
 mod fmt;
+mod gallery;
 mod header;
 mod ledger;
 mod mutants;
@@ -49,6 +50,7 @@ const COMMANDS: &[Command] = &[
     features::COMMAND,
     package::COMMAND,
     scenes::COMMAND,
+    gallery::COMMAND,
     ledger::COMMAND,
     errors::COMMAND,
     bench::COMMAND,

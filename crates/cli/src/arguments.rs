@@ -118,6 +118,20 @@ pub(crate) struct RunArguments {
     /// Start even a run that takes more than a day.
     #[arg(long)]
     pub(crate) yes: bool,
+    /// Go on from the last checkpoint of a run of this scene that was killed or interrupted, if there is one in the folder.
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Time between two checkpoints of a motion, in seconds.
+    #[arg(long, value_name = "SECONDS", default_value_t = 30.0, value_parser = seconds)]
+    pub(crate) checkpoint: f64,
+}
+
+/// A pause that the clock knows.
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(seconds) if (0.0..=1e9).contains(&seconds) => Ok(seconds),
+        _ => Err("a number of seconds from 0 to 1e9 is needed".to_owned()),
+    }
 }
 
 #[derive(Debug, Args)]

@@ -5,12 +5,13 @@ use core::sync::atomic::{AtomicBool, Ordering};
 use std::borrow::Cow;
 use std::io::Write as _;
 use std::path::Path;
+use std::time::Duration;
 
 use piola_charts::{Folder, Written};
 use piola_forward::ForwardError;
 use piola_measured::MeasuredError;
 use piola_scene::output::{self, Summary};
-use piola_scene::run::{self, Outcome, Prediction};
+use piola_scene::run::{self, Checkpoints, MotionCheckpoint, Outcome, Prediction};
 use piola_scene::studies::{self, StudyPlan};
 use piola_scene::{Plan, Scene, SceneError, SceneFile, Study, schema};
 
@@ -33,6 +34,9 @@ fn results(arguments: &RunArguments, asked: &Path) -> Result<Folder, SceneError>
 }
 
 fn run_study(study: &Study, arguments: &RunArguments) -> Exit {
+    if arguments.resume {
+        return refuse("a study leaves no checkpoints: run it without --resume", arguments.scene.json);
+    }
     let folder = match results(arguments, &study.output.folder) {
         Ok(folder) => folder,
         Err(error) => return invalid(&error, arguments.scene.json),
@@ -73,13 +77,22 @@ fn run_motion(scene: &Scene, arguments: &RunArguments) -> Exit {
         }
         Ok(_) => {}
     }
+    let mut checkpoints = Checkpoints::new(&folder, Duration::from_secs_f64(arguments.checkpoint));
+    let from = match arguments.resume.then(|| begin_again(scene, &plan, &checkpoints)).transpose() {
+        Ok(from) => from.flatten(),
+        Err(error) => return invalid(&error, arguments.scene.json),
+    };
     let interrupt = Interrupt::listen();
     let mut progress = ProgressLine::new(&plan.name, STRIDE);
-    let run = run::run(scene, &plan, |step| {
+    let run = run::run_with_checkpoints(scene, &plan, from, &mut checkpoints, |step| {
         progress.update(step.fraction);
         if interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     progress.finish();
+    let run = match run {
+        Ok(run) => run,
+        Err(error) => return invalid(&error, arguments.scene.json),
+    };
     let summary = Summary::of(scene, &plan, &run);
     let mut written = output::write(&folder, scene, &plan, &run, &summary);
     if arguments.report {
@@ -92,9 +105,26 @@ fn run_motion(scene: &Scene, arguments: &RunArguments) -> Exit {
         print(&report::table(scene, &plan, &run));
         print(&listing(&folder, &written));
     }
+    if let Some(failure) = checkpoints.failure() {
+        note(&format!("the last checkpoint is not written: {failure}"));
+    }
+    if run.outcome != Outcome::Interrupted && written.failures.is_empty() {
+        checkpoints.remove();
+    }
     let end =
         format!("at {} s of {} s; what was computed until then is in {}", run.time, plan.end, folder.path().display());
     ended(&run.outcome, &written, &end)
+}
+
+/// The checkpoint that a run goes on from, if there is one; tells which it is.
+fn begin_again(scene: &Scene, plan: &Plan, checkpoints: &Checkpoints) -> Result<Option<MotionCheckpoint>, SceneError> {
+    let from = checkpoints.last(scene, plan)?;
+    note(&match &from {
+        Some(from) => format!("the run goes on at {} s", from.time()),
+        None if run::has_checkpoints(scene) => "there is no checkpoint: the run begins at its start".to_owned(),
+        None => "a mechanism with constraints leaves no checkpoints: the run begins at its start".to_owned(),
+    });
+    Ok(from)
 }
 
 /// Prints the errors of a run and gives its exit code.

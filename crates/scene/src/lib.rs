@@ -18,12 +18,12 @@ pub mod output;
 pub mod plan;
 pub mod run;
 mod scene_file;
-pub mod schema;
 pub mod studies;
 
-pub use error::SceneError;
+pub use error::{CheckpointError, SceneError};
 pub use model::Scene;
 pub use piola_document::{Document, Report};
+pub use piola_schema as schema;
 pub use plan::Plan;
 pub use scene_file::SceneFile;
 pub use studies::Study;

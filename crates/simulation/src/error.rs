@@ -26,6 +26,17 @@ pub enum SimulationError {
         /// Its value.
         value: f64,
     },
+    /// A checkpoint that another version of Piola made, whose steps may differ in their last bits.
+    #[error("the checkpoint is of Piola {found}; this is Piola {expected}")]
+    CheckpointOfOtherVersion {
+        /// The version that made it.
+        found: String,
+        /// This version.
+        expected: String,
+    },
+    /// A checkpoint of a run of another system, by another method or at other instants.
+    #[error("the checkpoint is of another run: its system, its method or its instants differ")]
+    CheckpointOfOtherRun,
     /// |axis| = 1 violated.
     #[error("an axis of joint {joint} has the length {length}; it must be a unit vector")]
     AxisNotUnit {

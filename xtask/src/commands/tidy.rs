@@ -6,7 +6,7 @@ mod names;
 mod sources;
 mod testdata;
 
-use super::Command;
+use super::{Command, gallery};
 use crate::step::{Outcome, Step};
 
 pub(super) const COMMAND: Command = Command {
@@ -21,7 +21,8 @@ imports   folders inside a crate have floors, and no two files import each other
 crates    the arrows between the crates are those of ARCHITECTURE.md; internal dependencies name the workspace's entry,
           internal development dependencies only a path; README, LICENSE and metadata in each crate that is published;
           no crate is larger than its limit; the facade's table names its features
-testdata  every reference value says where it came from",
+testdata  every reference value says where it came from
+gallery   docs/gallery.md has every scene",
     prepare: |_, workspace, _| {
         Ok(vec![
             Step::check(
@@ -48,6 +49,11 @@ testdata  every reference value says where it came from",
                 "tidy: testdata",
                 || report(testdata::check(workspace), "reference data states its provenance"),
                 "a reference value without a source is worth nothing",
+            ),
+            Step::check(
+                "tidy: gallery",
+                || report(gallery::missing(workspace), "the gallery has every scene"),
+                "`cargo xtask gallery` writes the page and its figures",
             ),
         ])
     },

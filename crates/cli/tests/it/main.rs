@@ -5,4 +5,5 @@ mod end_to_end;
 mod hostile;
 mod measurements;
 mod register;
+mod resume;
 mod sweeps;

@@ -103,6 +103,27 @@ impl KeplerMotion {
     /// The position (m) at t seconds after the state.
     #[must_use]
     pub fn position(&self, t: f64) -> [f64; 3] {
+        self.state(t).0
+    }
+
+    /// The position (m) and the velocity (m/s) at t seconds after the state.
+    ///
+    /// ```text
+    /// x = f x₀ + g v₀,    f = 1 − (a/r₀)(1 − cos ΔE),    g = (ΔM − ΔE + sin ΔE)/n
+    /// v = ḟ x₀ + ġ v₀,    ḟ = −n (a/r₀)(a/r) sin ΔE,    ġ = 1 − (a/r)(1 − cos ΔE)
+    /// ```
+    ///
+    /// # Example
+    /// ```
+    /// use piola_gravitation::kepler::KeplerMotion;
+    /// // From the pericentre of an ellipse with e = 1/2, at 1/2 m with √3 m/s, to the apocentre.
+    /// let ellipse = KeplerMotion::new(1.0, [0.5, 0.0, 0.0], [0.0, 3.0_f64.sqrt(), 0.0])?;
+    /// let ([x, _, _], [_, v, _]) = ellipse.state(ellipse.period() / 2.0);
+    /// assert!((x + 1.5).abs() < 1e-15 && (v + 1.0 / 3.0_f64.sqrt()).abs() < 1e-15);
+    /// # Ok::<(), piola_gravitation::kepler::NotElliptic>(())
+    /// ```
+    #[must_use]
+    pub fn state(&self, t: f64) -> ([f64; 3], [f64; 3]) {
         let advanced = self.mean_motion * Twofold::of(t);
         let mean = self.mean_anomaly + advanced;
         let turns = Twofold::of((mean.high / TURN.high).round());
@@ -115,7 +136,13 @@ impl KeplerMotion {
         let mean_change = (advanced - TURN * turns).value();
         let f = 1.0 - self.stretch * 2.0 * half * half;
         let g = (mean_change - minus_sine(change)) / n;
-        [0, 1, 2].map(|i| f * self.position[i] + g * self.velocity[i])
+        let half_anomaly = (0.5 * anomaly).sin();
+        // a/r
+        let nearness = 1.0 / (self.gap + 2.0 * self.eccentricity * half_anomaly * half_anomaly);
+        let f_rate = -n * self.stretch * nearness * change.sin();
+        let g_rate = 1.0 - nearness * 2.0 * half * half;
+        let combined = |f: f64, g: f64| [0, 1, 2].map(|i| f * self.position[i] + g * self.velocity[i]);
+        (combined(f, g), combined(f_rate, g_rate))
     }
 }
 

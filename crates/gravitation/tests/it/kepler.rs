@@ -19,6 +19,11 @@ fn position_equals_golden_trajectory() {
             // The condition of a position at the pericentre is its speed there over the mean speed.
             let tolerance = Tol::ulps(8.0).times((1.0 + motion.eccentricity()) / (1.0 - motion.eccentricity()));
             assert_close_at_scale("position", &position[..2], &expected[..2], motion.semi_major_axis(), tolerance);
+            // An ulp of the mean anomaly changes the velocity at the pericentre by n a/(1 − e)².
+            let (_, velocity) = motion.state(golden::number(&state["t"]));
+            let mean_speed = core::f64::consts::TAU * motion.semi_major_axis() / motion.period();
+            let tolerance = Tol::ulps(8.0).times(1.0 / (1.0 - motion.eccentricity()).powi(2));
+            assert_close_at_scale("velocity", &velocity[..2], &expected[2..], mean_speed, tolerance);
             seen += 1;
         }
     }

@@ -42,11 +42,13 @@ impl<'a, P: RungeKuttaPair, T: Real, F: Field<T>> DenseStep<'a, P, T, F> {
         row(&self.method.memory, P::STAGES + number, self.method.components)
     }
 
-    /// The run at the end of this step, to be written down and continued. Evaluations made for dense output of this step are
-    /// not counted.
+    /// The run at the end of this step, to be written down and continued. Its report counts the evaluations for dense output of
+    /// this step that were made before.
     #[must_use]
     pub fn checkpoint(&self) -> Checkpoint<T> {
-        self.method.checkpoint(self.step.end, &self.step.progress)
+        let mut checkpoint = self.method.checkpoint(self.step.end, &self.step.progress);
+        checkpoint.report.evaluations += self.evaluations;
+        checkpoint
     }
 
     /// Writes the state at a time within the step to `out`.

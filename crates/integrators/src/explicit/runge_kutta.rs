@@ -58,9 +58,9 @@ impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
         field: &mut F,
         state: &mut State<T>,
         end: f64,
-        mut observer: impl FnMut(&mut DenseStep<'_, P, T, F>) -> ControlFlow<()>,
+        observer: impl FnMut(&mut DenseStep<'_, P, T, F>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.run(field, state, end, None, &mut |step| Ok(stopped_by(observer(step))))
+        self.integrate_from(field, None, state, end, observer)
     }
 
     /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
@@ -74,9 +74,25 @@ impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
         checkpoint: &Checkpoint<T>,
         state: &mut State<T>,
         end: f64,
+        observer: impl FnMut(&mut DenseStep<'_, P, T, F>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.integrate_from(field, Some(checkpoint), state, end, observer)
+    }
+
+    /// [`integrate`](Self::integrate) without a checkpoint, [`resume`](Self::resume) with one: compiled once for both.
+    ///
+    /// # Errors
+    /// As these.
+    #[doc(hidden)]
+    pub fn integrate_from<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        checkpoint: Option<&Checkpoint<T>>,
+        state: &mut State<T>,
+        end: f64,
         mut observer: impl FnMut(&mut DenseStep<'_, P, T, F>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.run(field, state, end, Some(checkpoint), &mut |step| Ok(stopped_by(observer(step))))
+        self.run(field, state, end, checkpoint, &mut |step| Ok(stopped_by(observer(step))))
     }
 
     /// Runs to `end`. `inspect` sees each accepted step; to end the run it gives the time of the end (the step's own end

@@ -82,11 +82,12 @@ impl<'a, P: NystromPair, T: Real, F: SecondOrder<T>> NystromStep<'a, P, T, F> {
         &self.method.memory[(P::STAGES + first) * n..][..count * n]
     }
 
-    /// The run at the end of this step, to be written down and continued. Evaluations made for dense output of this step are
-    /// not counted.
+    /// The run at the end of this step, to be written down and continued. Its report counts the evaluations for dense output of
+    /// this step that were made before.
     #[must_use]
     pub fn checkpoint(&self) -> Checkpoint<T> {
-        let (n, RunSoFar { report, time_carry, next, .. }) = (self.method.freedom, self.step.progress);
+        let (n, RunSoFar { mut report, time_carry, next, .. }) = (self.method.freedom, self.step.progress);
+        report.evaluations += self.evaluations;
         let [q, v] = self.method.magnitudes_at_end;
         Checkpoint {
             state: State {

@@ -249,9 +249,9 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
         field: &mut F,
         state: &mut State<T>,
         end: f64,
-        mut observer: impl FnMut(&mut NystromStep<'_, P, T, F>) -> ControlFlow<()>,
+        observer: impl FnMut(&mut NystromStep<'_, P, T, F>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.run(field, state, end, None, &mut |step| Ok(stopped_by(observer(step))))
+        self.integrate_from(field, None, state, end, observer)
     }
 
     /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
@@ -265,9 +265,25 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
         checkpoint: &Checkpoint<T>,
         state: &mut State<T>,
         end: f64,
+        observer: impl FnMut(&mut NystromStep<'_, P, T, F>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.integrate_from(field, Some(checkpoint), state, end, observer)
+    }
+
+    /// [`integrate`](Self::integrate) without a checkpoint, [`resume`](Self::resume) with one: compiled once for both.
+    ///
+    /// # Errors
+    /// As these.
+    #[doc(hidden)]
+    pub fn integrate_from<F: SecondOrder<T>>(
+        &mut self,
+        field: &mut F,
+        checkpoint: Option<&Checkpoint<T>>,
+        state: &mut State<T>,
+        end: f64,
         mut observer: impl FnMut(&mut NystromStep<'_, P, T, F>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.run(field, state, end, Some(checkpoint), &mut |step| Ok(stopped_by(observer(step))))
+        self.run(field, state, end, checkpoint, &mut |step| Ok(stopped_by(observer(step))))
     }
 
     /// Runs to `end`. `inspect` sees each accepted step; to end the run it gives the time of the end (the step's own end

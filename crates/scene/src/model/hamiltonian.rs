@@ -3,7 +3,7 @@
 use piola_document::Record;
 use piola_document::units::Dimension;
 use piola_expression::{Expression, Variable};
-use piola_simulation::phase::{PhaseExpression, PhaseQuestions, PhaseSystem};
+use piola_simulation::phase::{BracketQuestion, NewVariables, PhaseExpression, PhaseQuestions, PhaseSystem};
 use piola_simulation::questions::MechanismQuestions;
 
 use super::{Builder, TimeSpan};
@@ -70,12 +70,59 @@ impl Builder<'_> {
         };
         let mut system = built.map_err(refused).ok()?;
         system.questions = questions?;
+        system.questions.brackets = self.brackets(scene, &names)?;
+        system.questions.new_variables = self.new_variables(scene, &names, system.freedom())?;
         Some(system)
     }
 
     fn phase_expression(&mut self, record: &Record, key: &'static str, names: &ExpressionNames) -> Option<Expression> {
         record.text(key)?;
         text::of_key(record, key, names, Dimension::NONE).map_err(|mistake| self.wrong(*mistake)).ok()
+    }
+
+    fn brackets(&mut self, scene: &Record, names: &ExpressionNames) -> Option<Vec<BracketQuestion>> {
+        let records = scene.records("bracket");
+        self.unique_names(&[records]);
+        let mut bracket = |record: &Record| {
+            let first = PhaseExpression(self.phase_expression(record, "first", names)?);
+            let second = if record.has("second") {
+                Some(PhaseExpression(self.phase_expression(record, "second", names)?))
+            } else {
+                None
+            };
+            Some(BracketQuestion { name: record.text("name")?.to_string(), first, second })
+        };
+        records.iter().map(&mut bracket).collect()
+    }
+
+    /// The change of variables, if there is one: as many new coordinates as there are old ones.
+    #[expect(clippy::option_option, reason = "a mistake, or nothing asked")]
+    fn new_variables(
+        &mut self,
+        scene: &Record,
+        names: &ExpressionNames,
+        freedom: usize,
+    ) -> Option<Option<NewVariables>> {
+        let records = scene.records("new_coordinate");
+        let Some(first) = records.first() else { return Some(None) };
+        self.unique_names(&[records]);
+        if records.len() != freedom {
+            return self.refused(
+                first.place.clone(),
+                format!("{} new coordinates of {freedom} old ones", records.len()),
+                format!("{freedom} [[new_coordinate]]"),
+            );
+        }
+        let mut functions = |key: &'static str| {
+            records.iter().map(|record| self.phase_expression(record, key, names)).collect::<Option<Vec<_>>>()
+        };
+        let (coordinates, momenta) = (functions("coordinate"), functions("momentum"));
+        match NewVariables::new(coordinates?, momenta?) {
+            Ok(variables) => Some(Some(variables)),
+            Err(error) => {
+                self.refused(first.place.clone(), error.to_string(), "functions of the coordinates and momenta")
+            }
+        }
     }
 
     fn phase_questions(&mut self, scene: &Record, names: &ExpressionNames) -> Option<PhaseQuestions> {
@@ -89,7 +136,7 @@ impl Builder<'_> {
         } else {
             None
         };
-        Some(PhaseQuestions { section, exponent: asked.flag("exponent")?, tolerance })
+        Some(PhaseQuestions { section, exponent: asked.flag("exponent")?, tolerance, ..PhaseQuestions::default() })
     }
 
     /// The questions to a mechanism.

@@ -285,10 +285,22 @@ impl<'d> Builder<'d> {
         if let Some(table) = table {
             let adaptive =
                 ["dormand-prince-853", "verner-98", "nystrom-86", "nystrom-1210"].contains(&request.method.as_str());
+            let closed = request.method == "closed-form";
+            if closed && !record.has("central") {
+                self.refuse(
+                    table.place_of("method"),
+                    "the closed form in a scene that is not of [central]",
+                    "[central], or another method",
+                );
+            }
             let fixed = !adaptive && request.method != "auto";
-            for (key, wrong) in [("step", adaptive), ("tolerance", fixed)] {
+            for (key, wrong) in [("step", adaptive || closed), ("tolerance", fixed)] {
                 if wrong && table.has(key) {
-                    let valid = if adaptive { "tolerance: its step adapts" } else { "step: its step is fixed" };
+                    let valid = match (closed, adaptive) {
+                        (true, _) => "neither step nor tolerance: a closed form has no steps",
+                        (_, true) => "tolerance: its step adapts",
+                        _ => "step: its step is fixed",
+                    };
                     self.refuse(table.place_of(key), format!("`{key}` with the method {}", request.method), valid);
                 }
             }

@@ -29,6 +29,7 @@ pub fn write(folder: &Folder, scene: &Scene, plan: &Plan, run: &Run, summary: &S
         "energies.csv" => Some(tables::energies(&run.history)),
         "section.csv" => Some(tables::section(&run.history, phase_answers(run)?)),
         "exponent.csv" => Some(tables::exponent(phase_answers(run)?)),
+        "brackets.csv" => Some(tables::brackets(scene, &run.history, phase_answers(run)?)),
         "modes.csv" => Some(tables::modes(&run.history, mechanism_answers(run)?)),
         "phase.svg" => Some(phase::planes(title(scene), &run.history)),
         "section.svg" => Some(phase::section(title(scene), &run.history, phase_answers(run)?)),

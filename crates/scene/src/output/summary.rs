@@ -3,9 +3,10 @@
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use crate::model::Scene;
+use crate::model::{PhaseSystem, Scene, System};
 use crate::plan::{Item, Method, Plan, method_summary};
 use crate::run::{Answers, Drift, Outcome, Run};
+use piola_simulation::phase::{BracketQuestion, PhaseAnswers};
 use piola_simulation::questions::{MechanismMode, Stability};
 
 /// The numbers of a run.
@@ -113,6 +114,9 @@ fn answers(scene: &Scene, run: &Run, found: &Answers) -> Value {
             if let Some(exponent) = answers.exponent {
                 told.insert("largest_exponent_1_per_s".into(), json!(exponent));
             }
+            if let System::Phase(system) = &scene.system {
+                told.extend(phase_structure(system, answers));
+            }
             Value::Object(told)
         }
         Answers::Mechanism(Err(why)) => json!({ "equilibrium": null, "failure": why }),
@@ -128,6 +132,31 @@ fn answers(scene: &Scene, run: &Run, found: &Answers) -> Value {
             })
         }
     }
+}
+
+/// Relative residual up to which a change of variables counts as canonical: rounding of its Jacobian.
+const CANONICAL: f64 = 1e-12;
+
+/// Brackets at the start and their largest sizes, and whether the new variables are canonical.
+fn phase_structure(system: &PhaseSystem, answers: &PhaseAnswers) -> Map<String, Value> {
+    let mut told = Map::new();
+    if let Some(start) = answers.brackets.first() {
+        let of = |(i, bracket): (usize, &BracketQuestion)| {
+            let largest = answers.brackets.iter().map(|row| row[i].abs()).fold(0.0, f64::max);
+            (bracket.name.clone(), json!({ "at_start": start[i], "largest_magnitude": largest }))
+        };
+        let brackets: Map<String, Value> = system.questions.brackets.iter().enumerate().map(of).collect();
+        told.insert("brackets".into(), Value::Object(brackets));
+    }
+    if let Some((t, test)) = answers.canonical {
+        let worst = json!({
+            "is_canonical": test.relative <= CANONICAL,
+            "largest_relative_residual": test.relative,
+            "at_time_s": t,
+        });
+        told.insert("new_coordinates".into(), worst);
+    }
+    told
 }
 
 /// What becomes of a small disturbance, in words.

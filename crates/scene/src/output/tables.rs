@@ -5,6 +5,7 @@ use core::fmt::Write as _;
 use piola_simulation::phase::PhaseAnswers;
 use piola_simulation::questions::MechanismAnswers;
 
+use crate::model::{Scene, System};
 use crate::run::{History, PartReaction, Run};
 
 /// `time_s,body,x_m,y_m,z_m` with velocities where there are any: a form that can be a reference again.
@@ -77,6 +78,13 @@ pub(super) fn exponent(answers: &PhaseAnswers) -> String {
         let _ = writeln!(text, "{t:?},{estimate:?}");
     }
     text
+}
+
+/// Poisson brackets at every recorded instant.
+pub(super) fn brackets(scene: &Scene, history: &History, answers: &PhaseAnswers) -> String {
+    let System::Phase(system) = &scene.system else { return String::new() };
+    let names: Vec<String> = system.questions.brackets.iter().map(|bracket| bracket.name.clone()).collect();
+    columns(&history.times, &names, &answers.brackets)
 }
 
 /// Modes of small motions: frequency, growth and the displacement of each coordinate in phase and a quarter of a turn later.

@@ -3,7 +3,7 @@
 use piola_integrators::{Advice, AdvisedMethod, Character, Order, advise};
 
 use super::Method;
-use crate::model::{Central, Gravitation, PhaseSystem, Scene, System};
+use crate::model::{Central, Gravitation, PhaseSystem, ReferenceKind, Scene, System};
 use piola_gravitation::kepler::KeplerMotion;
 
 /// Steps a method of order 8 takes for each turn of the fastest motion: errors near rounding on mild ellipses.
@@ -44,6 +44,7 @@ pub(super) fn method(scene: &Scene) -> (Method, String) {
             };
             (method, "integrator.method asks for it; the step adapts".to_string())
         }
+        ("closed", _) => (Method::ClosedForm, "integrator.method asks for it".to_string()),
         _ => automatic(scene),
     }
 }
@@ -137,6 +138,11 @@ fn automatic(scene: &Scene) -> (Method, String) {
             )
         }
         System::Central(system) => {
+            let compares = matches!(scene.reference.as_ref().map(|reference| &reference.kind), Some(ReferenceKind::ClosedForm(_)));
+            if request.step.is_none() && request.tolerance.is_none() && !compares && are_ellipses(system) {
+                let why = "every body moves on an ellipse of its own, which has a closed form; errors do not grow with steps";
+                return (Method::ClosedForm, why.to_string());
+            }
             let e = eccentricity(system);
             if request.step.is_some() || (request.tolerance.is_none() && e <= 0.2) {
                 let (step, why) = step(scene, Order::Eight);
@@ -264,6 +270,11 @@ fn shortest_period(system: &Central) -> Option<f64> {
     let motions =
         system.bodies.iter().filter_map(|body| KeplerMotion::new(system.gm, body.position, body.velocity).ok());
     motions.map(|motion| motion.period()).reduce(f64::min)
+}
+
+/// Whether Kepler's closed form holds for every body.
+fn are_ellipses(system: &Central) -> bool {
+    system.bodies.iter().all(|body| KeplerMotion::new(system.gm, body.position, body.velocity).is_ok())
 }
 
 fn eccentricity(system: &Central) -> f64 {

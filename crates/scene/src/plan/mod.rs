@@ -30,8 +30,8 @@ use crate::model::{ReferenceKind, Scene, System};
 ///     revolutions = 3
 /// ");
 /// let plan = Plan::of(&Scene::from_document(&document)?);
-/// assert_eq!(plan.method.to_string(), "nystrom-1210");
-/// assert!(plan.reason.contains("eccentricity"));
+/// assert_eq!(plan.method.to_string(), "closed-form");
+/// assert!(plan.reason.contains("ellipse"));
 /// # Ok::<(), piola_scene::SceneError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -80,7 +80,8 @@ pub struct Item {
 #[derive(Serialize)]
 struct MethodSummary {
     name: String,
-    order: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    order: Option<u32>,
     symplectic: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     step_s: Option<f64>,
@@ -92,11 +93,14 @@ impl From<Method> for MethodSummary {
     fn from(method: Method) -> Self {
         let (order, symplectic, step_s, relative_tolerance) = match method {
             Method::Composition { order, step } | Method::GaussLegendre { order, step } => {
-                (order.value(), true, Some(step), None)
+                (Some(order.value()), true, Some(step), None)
             }
-            Method::DormandPrince { tolerance } | Method::Nystrom86 { tolerance } => (8, false, None, Some(tolerance)),
-            Method::Verner { tolerance } => (9, false, None, Some(tolerance)),
-            Method::Nystrom1210 { tolerance } => (12, false, None, Some(tolerance)),
+            Method::DormandPrince { tolerance } | Method::Nystrom86 { tolerance } => {
+                (Some(8), false, None, Some(tolerance))
+            }
+            Method::Verner { tolerance } => (Some(9), false, None, Some(tolerance)),
+            Method::Nystrom1210 { tolerance } => (Some(12), false, None, Some(tolerance)),
+            Method::ClosedForm => (None, true, None, None),
         };
         Self { name: method.to_string(), order, symplectic, step_s, relative_tolerance }
     }
@@ -189,7 +193,13 @@ impl Plan {
             }
             System::Phase(system) => self.phase_items(system),
             System::Central(system) => {
-                self.compute("central attraction", format!("gm = {} m³/s²", words::number(system.gm)));
+                let gm = format!("gm = {} m³/s²", words::number(system.gm));
+                if self.method == Method::ClosedForm {
+                    self.compute("Kepler's ellipses", format!("in closed form at every recorded instant; {gm}"));
+                    self.skip("forces and steps", "the closed form needs neither");
+                } else {
+                    self.compute("central attraction", gm);
+                }
                 self.skip("attraction between bodies", "[central]: the bodies do not attract");
                 self.skip("attitudes", "bodies without extent");
                 self.compute("energy and angular momentum", "conserved: at every recorded instant");
@@ -260,7 +270,7 @@ fn steps(instants: &[f64], step: f64) -> u64 {
     // As the integrators count: an interval that is a whole number of steps but for rounding is not given one more.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count, and the cast saturates")]
     let count = |pair: &[f64]| ((pair[1] - pair[0]).abs() / step * (1.0 - 4.0 * f64::EPSILON)).ceil() as u64;
-    instants.windows(2).map(count).sum()
+    instants.windows(2).map(count).fold(0, u64::saturating_add)
 }
 
 fn describe(system: &System) -> String {
@@ -321,6 +331,7 @@ impl fmt::Display for Plan {
                 let (step, count) = (seconds(step), self.steps.unwrap_or_default());
                 writeln!(f, ", steps of at most {step} s that land on every instant: {count}")?;
             }
+            Method::ClosedForm => writeln!(f, ", no steps")?,
         }
         writeln!(f, "          {}", self.reason)?;
         for (heading, items) in [("computed", &self.computed), ("skipped", &self.skipped)] {

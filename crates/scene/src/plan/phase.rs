@@ -10,6 +10,7 @@ pub(super) fn tables(system: &PhaseSystem) -> impl Iterator<Item = &'static str>
         ("works.csv", system.hamiltonian.0.depends_on_time()),
         ("section.csv", questions.section.is_some()),
         ("exponent.csv", questions.exponent),
+        ("brackets.csv", !questions.brackets.is_empty()),
     ];
     tables.into_iter().filter(|(_, written)| *written).map(|(name, _)| name)
 }
@@ -42,6 +43,17 @@ impl Plan {
             self.compute("largest Lyapunov exponent", "by exact variations, 400 intervals over the time");
         } else {
             self.skip("Lyapunov exponent", "questions.exponent = false");
+        }
+        for bracket in &system.questions.brackets {
+            self.compute(&format!("bracket `{}`", bracket.name), "at every recorded instant, by exact derivatives");
+        }
+        if system.questions.brackets.is_empty() {
+            self.skip("Poisson brackets", "no [[bracket]]");
+        }
+        if system.questions.new_variables.is_some() {
+            self.compute("canonical test", "of the new coordinates, by their exact Jacobian at every recorded instant");
+        } else {
+            self.skip("canonical test", "no [[new_coordinate]]");
         }
     }
 }

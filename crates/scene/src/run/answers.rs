@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use piola_simulation::Outcome;
-use piola_simulation::motion::Progress;
+use piola_simulation::motion::{History, Progress};
 use piola_simulation::phase::PhaseAnswers;
 use piola_simulation::questions::MechanismAnswers;
 
@@ -21,12 +21,13 @@ pub enum Answers {
 /// The answers, and how the search for them ended; nothing where nothing is asked.
 pub(super) fn answers(
     scene: &Scene,
+    history: &History,
     last: Option<Progress>,
     observer: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Option<(Answers, Outcome)> {
     match &scene.system {
-        System::Phase(system) if system.questions.section.is_some() || system.questions.exponent => {
-            let (answers, outcome) = system.answers(scene.time, &mut |_| match last {
+        System::Phase(system) if !system.questions.is_empty() => {
+            let (answers, outcome) = system.answers(scene.time, history, &mut |_| match last {
                 Some(progress) => observer(progress),
                 None => ControlFlow::Continue(()),
             });

@@ -1,18 +1,23 @@
 //! Runs a planned scene and keeps its history.
 
 mod answers;
+mod checkpoints;
 mod comparison;
 
 use core::ops::ControlFlow;
 use std::time::Instant;
 
-use piola_simulation::motion::{MotionRun, simulate};
+use piola_simulation::motion::{MotionRun, resume, simulate};
 
 pub use answers::Answers;
+pub use checkpoints::{Checkpoints, has_checkpoints};
 pub use comparison::{BodyErrors, ErrorAt, Errors};
 pub use piola_simulation::Outcome;
-pub use piola_simulation::motion::{Drift, DriftAt, Drifts, History, Invariants, PartReaction, Progress, Scaled};
+pub use piola_simulation::motion::{
+    Drift, DriftAt, Drifts, History, Invariants, MotionCheckpoint, PartReaction, Progress, Scaled,
+};
 
+use crate::SceneError;
 use crate::model::Scene;
 use crate::plan::{self, Plan};
 
@@ -67,18 +72,49 @@ pub struct Run {
 /// # Ok::<(), piola_scene::SceneError>(())
 /// ```
 pub fn run(scene: &Scene, plan: &Plan, mut observer: impl FnMut(Progress) -> ControlFlow<()>) -> Run {
-    answered(scene, plan, &mut observer)
-}
-
-/// The motion and then the answers to the questions, for any observer.
-fn answered(scene: &Scene, plan: &Plan, observer: &mut dyn FnMut(Progress) -> ControlFlow<()>) -> Run {
+    let begun = Instant::now();
     let mut last = None;
-    let mut run = observed(scene, plan, &mut |progress| {
+    let motion = simulate(&scene.system, plan.method, &plan::timetable(scene), &mut |progress| {
         last = Some(progress);
         observer(progress)
     });
+    answered(scene, recorded(scene, motion, begun), last, &mut observer)
+}
+
+/// As [`run`], with checkpoints: the run begins at one if there is one, and leaves others in the folder of the results.
+///
+/// The answers to the questions of a scene are found after the motion and are not in its checkpoints.
+///
+/// # Errors
+/// [`SceneError::Simulation`]: the checkpoint is of another run or of another version of Piola.
+///
+/// # Example
+/// See [`Checkpoints`].
+pub fn run_with_checkpoints(
+    scene: &Scene,
+    plan: &Plan,
+    from: Option<MotionCheckpoint>,
+    checkpoints: &mut Checkpoints,
+    mut observer: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Run, SceneError> {
+    let begun = Instant::now();
+    let mut last = None;
+    let motion = resume(&scene.system, plan.method, &plan::timetable(scene), from, checkpoints, &mut |progress| {
+        last = Some(progress);
+        observer(progress)
+    })?;
+    Ok(answered(scene, recorded(scene, motion, begun), last, &mut observer))
+}
+
+/// Adds the answers to the questions, if the motion is complete. Compiled once for all observers.
+fn answered(
+    scene: &Scene,
+    mut run: Run,
+    last: Option<Progress>,
+    observer: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Run {
     if run.outcome == Outcome::Completed
-        && let Some((answers, outcome)) = answers::answers(scene, last, observer)
+        && let Some((answers, outcome)) = answers::answers(scene, &run.history, last, observer)
     {
         run.answers = Some(answers);
         run.outcome = outcome;
@@ -122,6 +158,8 @@ pub struct Prediction {
 ///     eccentricity = 0.5
 ///     [time]
 ///     end = {end}
+///     [integrator]
+///     tolerance = 1e-12
 /// "));
 /// let long = Scene::from_document(&orbit("1e30"))?;
 /// assert!(run::trial(&long, &Plan::of(&long)).unwrap().seconds > 1e9);
@@ -134,11 +172,12 @@ pub fn trial(scene: &Scene, plan: &Plan) -> Result<Prediction, String> {
     const SECONDS: f64 = 0.02;
     let begun = Instant::now();
     let mut fraction = 0.0;
-    let run = observed(scene, plan, &mut |progress| {
+    let motion = simulate(&scene.system, plan.method, &plan::timetable(scene), &mut |progress| {
         fraction = progress.fraction;
         let enough = STEPS <= progress.steps || SECONDS <= begun.elapsed().as_secs_f64();
         if enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
+    let run = recorded(scene, motion, begun);
     if let (Outcome::Failed(why), 0) = (&run.outcome, run.steps) {
         return Err(why.clone());
     }
@@ -173,12 +212,10 @@ fn duration(seconds: f64) -> String {
     }
 }
 
-/// The same for any observer: whoever calls `run` compiles none of it again.
-fn observed(scene: &Scene, plan: &Plan, observer: &mut dyn FnMut(Progress) -> ControlFlow<()>) -> Run {
-    let begun = Instant::now();
-    let run = simulate(&scene.system, plan.method, &plan::timetable(scene), observer);
+/// A motion that began at an instant of the clock, with its drifts and errors.
+fn recorded(scene: &Scene, motion: MotionRun, begun: Instant) -> Run {
     let wall_time = begun.elapsed().as_secs_f64();
-    let MotionRun { mut outcome, time, steps, rejected, force_evaluations, history, .. } = run;
+    let MotionRun { mut outcome, time, steps, rejected, force_evaluations, history, .. } = motion;
     if let (Outcome::Completed, Some(why)) = (&outcome, not_finite(&history)) {
         outcome = Outcome::Failed(why);
     }

@@ -231,3 +231,93 @@ fn the_summary_tells_what_was_asked_and_nothing_else() {
     let section = answers(&replaced(STARS, "section = \"x\"\ncrossings = 20\nexponent = true", "section = \"x - 9\""));
     assert!(section["crossings"] == 0 && section.get("largest_exponent_1_per_s").is_none(), "{section}");
 }
+
+/// A plane oscillator with brackets and axes turned by 30°.
+const OSCILLATOR: &str = r#"
+[hamiltonian]
+energy = "(px^2 + py^2 + x^2 + y^2)/2"
+
+[[coordinate]]
+name = "x"
+momentum = "px"
+start = 1.0
+
+[[coordinate]]
+name = "y"
+momentum = "py"
+momentum_at_start = 0.5
+
+[[bracket]]
+name = "rate of L"
+first = "x*py - y*px"
+
+[[bracket]]
+name = "L with A"
+first = "x*py - y*px"
+second = "x^2 + px^2 - y^2 - py^2"
+
+[[new_coordinate]]
+name = "u"
+coordinate = "(sqrt(3)*x + y)/2"
+momentum = "(sqrt(3)*px + py)/2"
+
+[[new_coordinate]]
+name = "v"
+coordinate = "(sqrt(3)*y - x)/2"
+momentum = "(sqrt(3)*py - px)/2"
+
+[time]
+end = "10 s"
+
+[output]
+samples = 41
+"#;
+
+#[test]
+fn brackets_along_an_orbit_equal_their_closed_forms() {
+    let (plan, run) = complete(OSCILLATOR);
+    assert!(plan.files.contains(&"brackets.csv".to_string()), "{plan}");
+    let Some(Answers::Phase(answers)) = &run.answers else { panic!("{:?}", run.answers) };
+    assert_eq!(answers.brackets.len(), 41);
+    for (state, bracket) in run.history.coordinates.iter().zip(&answers.brackets) {
+        let [x, y, px, py] = state[..] else { panic!("{state:?}") };
+        // L generates rotations: {L, x² + pₓ² − y² − p_y²} = 4 (x y + pₓ p_y).
+        assert_close("{L, H}", &bracket[..1], &[0.0], Tol::ulps(8.0));
+        assert_close("{L, A}", &bracket[1..], &[4.0 * (x * y + px * py)], Tol::ulps(16.0));
+    }
+    let summary = Summary::of(&scene(OSCILLATOR), &plan, &run).to_json();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(summary["answers"]["brackets"]["L with A"]["at_start"], 0.0);
+    assert_eq!(summary["answers"]["new_coordinates"]["is_canonical"], true);
+}
+
+#[test]
+fn a_change_of_variables_that_is_not_canonical_is_told() {
+    // v stretched by two alone: dP ∧ dQ is twice dp ∧ dq there, half of which is too much.
+    let stretched = replaced(OSCILLATOR, "(sqrt(3)*y - x)/2", "sqrt(3)*y - x");
+    let (plan, run) = complete(&stretched);
+    let summary = Summary::of(&scene(&stretched), &plan, &run).to_json();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(summary["answers"]["new_coordinates"]["is_canonical"], false);
+    let residual = summary["answers"]["new_coordinates"]["largest_relative_residual"].as_f64();
+    assert!(residual.is_some_and(|residual| 0.2 < residual && residual < 1.0), "{residual:?}");
+}
+
+#[test]
+fn a_bracket_that_is_not_defined_fails_by_name_and_mistakes_are_placed() {
+    let undefined = replaced(OSCILLATOR, "second = \"x^2 + px^2 - y^2 - py^2\"", "second = \"1/y\"");
+    let scene = scene(&undefined);
+    let run = run::run(&scene, &Plan::of(&scene), |_| ControlFlow::Continue(()));
+    let Outcome::Failed(why) = run.outcome else { panic!("{:?}", run.outcome) };
+    assert!(why.contains("a bracket at 0 s") && why.contains("{K, H}"), "{why}");
+    let one = OSCILLATOR.rfind("[[new_coordinate]]").unwrap_or_default();
+    let end = OSCILLATOR.find("[time]").unwrap_or_default();
+    let short = format!("{}{}", &OSCILLATOR[..one], &OSCILLATOR[end..]);
+    assert_mistake(&short, "[[new_coordinate]]", &["1 new coordinates of 2 old ones", "2 [[new_coordinate]]"]);
+    let twice = replaced(OSCILLATOR, "name = \"L with A\"", "name = \"rate of L\"");
+    assert!(report(&twice).to_string().contains("the name `rate of L` is taken"), "{}", report(&twice));
+    let unknown = replaced(OSCILLATOR, "x^2 + px^2 - y^2 - py^2", "z^2");
+    assert!(report(&unknown).to_string().contains("`z`"), "{}", report(&unknown));
+    let foreign = format!("{PAIR}[[bracket]]\nname = \"b\"\nfirst = \"x\"\n");
+    assert!(report(&foreign).to_string().contains("[[bracket]] in a scene of [gravity]"), "{}", report(&foreign));
+}

@@ -8,13 +8,14 @@ mod constraints;
 mod figures;
 mod forces;
 mod hamiltonian;
+mod hostile;
 mod plan;
 mod reference;
 #[cfg(feature = "robots")]
 mod robot;
 mod run;
-mod schema;
 mod settings;
+mod shipped;
 #[cfg(feature = "solutions")]
 mod solids;
 mod studies;

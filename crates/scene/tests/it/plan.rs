@@ -2,7 +2,8 @@
 
 use piola_scene::Plan;
 
-use crate::support::{ORBIT, PAIR, TOP, replaced, scene};
+use crate::support::{ORBIT, PAIR, TOP, assert_mistake, assert_small, replaced, scene};
+use piola_testkit::Tol;
 
 fn plan(text: &str) -> Plan {
     Plan::of(&scene(text))
@@ -52,6 +53,56 @@ fn method_follows_from_the_forces() {
     assert_eq!(plan(&format!("{TOP}[integrator]\nstep = '1 ms'\n")).method.to_string(), "gauss-legendre-8");
     assert_eq!(plan(ORBIT).method.to_string(), "nystrom-1210");
     assert_eq!(plan(&replaced(ORBIT, "eccentricity = 0.5", "eccentricity = 0.0")).method.to_string(), "composition-8");
+}
+
+#[test]
+fn ellipses_are_taken_from_their_closed_form_unless_something_speaks_against_it() {
+    let alone = replaced(ORBIT, "[reference]\nclosed_form = \"kepler\"\n", "");
+    let planned = plan(&alone);
+    assert_eq!(planned.method.to_string(), "closed-form");
+    assert!(skips(&planned, "forces and steps"), "{planned}");
+    let json = serde_json::to_value(&planned).unwrap_or_default();
+    assert!(json["method"]["order"].is_null(), "{json}");
+    // A run that is compared with the closed form, one with a step or a tolerance, and one past a hyperbola integrate.
+    let of_elements = "semi_major_axis = 1.0\neccentricity = 0.5";
+    let fast = replaced(&alone, of_elements, "position = [1, 0, 0]\nvelocity = [0, 2, 0]")
+        .replace("revolutions = 2", "end = 3.0");
+    for text in [ORBIT.to_string(), format!("{alone}[integrator]\ntolerance = 1e-9\n"), fast] {
+        assert_ne!(plan(&text).method.to_string(), "closed-form", "{text}");
+    }
+}
+
+#[test]
+fn a_closed_form_evaluates_no_force_and_agrees_with_an_integration() {
+    let text = replaced(ORBIT, "eccentricity = 0.5", "eccentricity = 0.9");
+    let closed = scene(&format!("{text}[integrator]\nmethod = 'closed-form'\n"));
+    let run = piola_scene::run::run(&closed, &Plan::of(&closed), |_| core::ops::ControlFlow::Continue(()));
+    assert_eq!((run.outcome, run.force_evaluations), (piola_scene::run::Outcome::Completed, 0));
+    let instants = run.history.times.len();
+    assert_eq!((run.steps, run.rejected), (instants as u64 - 1, 0));
+    let integrated = scene(&text);
+    let integrated =
+        piola_scene::run::run(&integrated, &Plan::of(&integrated), |_| core::ops::ControlFlow::Continue(()));
+    let size = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+    let (mut places, mut speeds) = (0.0_f64, 0.0_f64);
+    for i in 0..instants {
+        places = places.max(size(run.history.positions[i][0], integrated.history.positions[i][0]));
+        speeds = speeds.max(size(run.history.velocities[i][0], integrated.history.velocities[i][0]));
+    }
+    let why = "the integration's error after two revolutions, greatest near the pericentre, where the speed is 4.4";
+    assert_small("places", places, Tol::stated(2e-12, why));
+    assert_small("velocities", speeds, Tol::stated(2e-10, why));
+}
+
+#[test]
+fn a_closed_form_is_refused_where_there_is_none() {
+    let of = |text: &str, more: &str| format!("{text}[integrator]\nmethod = 'closed-form'\n{more}");
+    let foreign = ["the closed form in a scene that is not of [central]", "[central], or another method"];
+    assert_mistake(&of(PAIR, ""), "'closed-form'", &foreign);
+    for (key, line) in [("step", "step = 0.125\n"), ("tolerance", "tolerance = 0.125\n")] {
+        let found = format!("`{key}` with the method closed-form");
+        assert_mistake(&of(ORBIT, line), "0.125", &[&found, "neither step nor tolerance: a closed form has no steps"]);
+    }
 }
 
 #[test]

@@ -7,11 +7,12 @@ use core::fmt::Display;
 use core::ops::ControlFlow;
 
 use piola_integrators::{
-    Composition, DenseStep, DormandPrince853, Ending, Field, GaussLegendre, IntegratorsError, Nystrom, Nystrom86,
-    Nystrom1210, NystromPair, NystromStep, Report, RungeKutta, RungeKuttaPair, SecondOrder, Separable, State,
-    Tolerance, Verner98,
+    Checkpoint, Composition, DormandPrince853, Ending, Field, GaussLegendre, IntegratorsError, Nystrom, Nystrom86,
+    Nystrom1210, NystromPair, Report, RungeKutta, RungeKuttaPair, SecondOrder, Separable, State, Tolerance, Verner98,
 };
 
+use super::any_field::{AdaptiveStep, AnyField, FieldWithText, SecondOrderWithText, SeparableWithText};
+use super::checkpoint::{CheckpointKeeper, Marks, MotionCheckpoint, Stage};
 use super::{History, Invariants, Method, Progress, TimeSpan, Timetable};
 
 /// Reads everything that is recorded out of a state.
@@ -23,172 +24,24 @@ pub(super) trait Reading {
 }
 
 /// The observer of a run: it sees the progress after every step and may stop the run.
-pub(super) type Observer<'o> = &'o mut dyn FnMut(Progress) -> ControlFlow<()>;
+pub(super) type Observer<'o> = &'o mut (dyn FnMut(Progress) -> ControlFlow<()> + 'o);
 
 /// Takes a driver and a state to an instant.
 type Advance<'a, 'o> = &'a mut dyn FnMut(&mut Driver<'o>, &mut State, f64) -> Result<Report, IntegratorsError<String>>;
 
-/// Takes a driver and a state to a landing; also whether dense output failed.
+/// Takes a driver and a state to a landing, from a checkpoint if there is one; also whether dense output failed.
 type Landing<'a, 'o> = &'a mut dyn FnMut(
     &mut Driver<'o>,
+    Option<&Checkpoint>,
     &mut State,
     f64,
     &mut dyn Reading,
     &mut [f64],
 ) -> (Result<Report, IntegratorsError<String>>, Result<(), String>);
 
-/// A field or a separable pair behind a pointer: the integrators are compiled once and not once a system.
-/// Their cost beside the forces of a system is a call through a pointer, some nanoseconds an evaluation.
-struct AnyField<'f, F: ?Sized>(&'f mut F);
-
-/// What an integrator asks of a field, with errors as text.
-trait FieldWithText {
-    fn dimension(&self) -> usize;
-    fn is_second_order(&self) -> bool;
-    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), String>;
-    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), String>;
-    fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]);
-}
-
-impl<F: Field<Error: Display>> FieldWithText for F {
-    fn dimension(&self) -> usize {
-        Field::dimension(self)
-    }
-    fn is_second_order(&self) -> bool {
-        Field::is_second_order(self)
-    }
-    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), String> {
-        Field::rate(self, t, y, rate).map_err(|error| error.to_string())
-    }
-    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), String> {
-        Field::project(self, t, y).map_err(|error| error.to_string())
-    }
-    fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
-        Field::magnitudes(self, y, magnitudes);
-    }
-}
-
-impl Field for AnyField<'_, dyn FieldWithText + '_> {
-    type Error = String;
-    fn dimension(&self) -> usize {
-        self.0.dimension()
-    }
-    fn is_second_order(&self) -> bool {
-        self.0.is_second_order()
-    }
-    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), String> {
-        self.0.rate(t, y, rate)
-    }
-    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), String> {
-        self.0.project(t, y)
-    }
-    fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
-        self.0.magnitudes(y, magnitudes);
-    }
-}
-
-/// What a composition asks of a separable pair, with errors as text.
-trait SeparableWithText {
-    fn freedom(&self) -> usize;
-    fn velocity(&mut self, t: f64, momentum: &[f64], velocity: &mut [f64]) -> Result<(), String>;
-    fn force(&mut self, t: f64, position: &[f64], force: &mut [f64]) -> Result<(), String>;
-}
-
-impl<F: Separable<Error: Display>> SeparableWithText for F {
-    fn freedom(&self) -> usize {
-        Separable::freedom(self)
-    }
-    fn velocity(&mut self, t: f64, momentum: &[f64], velocity: &mut [f64]) -> Result<(), String> {
-        Separable::velocity(self, t, momentum, velocity).map_err(|error| error.to_string())
-    }
-    fn force(&mut self, t: f64, position: &[f64], force: &mut [f64]) -> Result<(), String> {
-        Separable::force(self, t, position, force).map_err(|error| error.to_string())
-    }
-}
-
-impl Separable for AnyField<'_, dyn SeparableWithText + '_> {
-    type Error = String;
-    fn freedom(&self) -> usize {
-        self.0.freedom()
-    }
-    fn velocity(&mut self, t: f64, momentum: &[f64], velocity: &mut [f64]) -> Result<(), String> {
-        self.0.velocity(t, momentum, velocity)
-    }
-    fn force(&mut self, t: f64, position: &[f64], force: &mut [f64]) -> Result<(), String> {
-        self.0.force(t, position, force)
-    }
-}
-
-/// What a Nyström pair asks of a system, with errors as text.
-trait SecondOrderWithText {
-    fn freedom(&self) -> usize;
-    fn is_velocity_dependent(&self) -> bool;
-    fn acceleration(&mut self, t: f64, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), String>;
-    fn magnitudes(&self, state: &[f64], magnitudes: &mut [f64]);
-}
-
-impl<F: SecondOrder<f64, Error: Display>> SecondOrderWithText for F {
-    fn freedom(&self) -> usize {
-        SecondOrder::freedom(self)
-    }
-    fn is_velocity_dependent(&self) -> bool {
-        SecondOrder::is_velocity_dependent(self)
-    }
-    fn acceleration(&mut self, t: f64, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), String> {
-        SecondOrder::acceleration(self, t, q, v, acceleration).map_err(|error| error.to_string())
-    }
-    fn magnitudes(&self, state: &[f64], magnitudes: &mut [f64]) {
-        SecondOrder::magnitudes(self, state, magnitudes);
-    }
-}
-
-impl SecondOrder for AnyField<'_, dyn SecondOrderWithText + '_> {
-    type Error = String;
-    const OWN_MAGNITUDES: bool = true;
-    fn freedom(&self) -> usize {
-        self.0.freedom()
-    }
-    fn is_velocity_dependent(&self) -> bool {
-        self.0.is_velocity_dependent()
-    }
-    fn acceleration(&mut self, t: f64, q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), String> {
-        self.0.acceleration(t, q, v, acceleration)
-    }
-    fn magnitudes(&self, state: &[f64], magnitudes: &mut [f64]) {
-        self.0.magnitudes(state, magnitudes);
-    }
-}
-
-/// An accepted step of an adaptive method.
-trait AdaptiveStep {
-    fn time(&self) -> f64;
-    fn values(&self) -> &[f64];
-    fn at(&mut self, t: f64, values: &mut [f64]) -> Result<(), String>;
-}
-
-impl<P: RungeKuttaPair, F: Field<f64, Error: Display>> AdaptiveStep for DenseStep<'_, P, f64, F> {
-    fn time(&self) -> f64 {
-        self.time()
-    }
-    fn values(&self) -> &[f64] {
-        self.values()
-    }
-    fn at(&mut self, t: f64, values: &mut [f64]) -> Result<(), String> {
-        self.at(t, values).map_err(|error| error.to_string())
-    }
-}
-
-impl<P: NystromPair, F: SecondOrder<f64, Error: Display>> AdaptiveStep for NystromStep<'_, P, f64, F> {
-    fn time(&self) -> f64 {
-        self.time()
-    }
-    fn values(&self) -> &[f64] {
-        self.values()
-    }
-    fn at(&mut self, t: f64, values: &mut [f64]) -> Result<(), String> {
-        self.at(t, values).map_err(|error| error.to_string())
-    }
-}
+/// Steps of a fixed-step method between two instants after which it begins anew from the state alone. A run may be continued
+/// from there, and it takes the same steps if it is not.
+const PIECE: u32 = 1000;
 
 pub(super) struct Driver<'o> {
     history: History,
@@ -199,12 +52,28 @@ pub(super) struct Driver<'o> {
     /// The first instant that is not recorded yet.
     next: usize,
     landings: Vec<f64>,
+    /// The landing that the run is on its way to.
+    landing: usize,
     observer: Observer<'o>,
     steps: u64,
+    /// Steps left of a piece.
+    left: u32,
+    /// Whether the observer has stopped the run.
+    stopped: bool,
+    keeper: Option<Keeper<'o>>,
+    resumed: Option<MotionCheckpoint>,
 }
 
+/// Who keeps the checkpoints of a run, and the marks that they bear.
+pub(super) type Keeper<'o> = (&'o mut dyn CheckpointKeeper, Marks);
+
 impl<'o> Driver<'o> {
-    pub(super) fn new(names: Vec<String>, timetable: &Timetable, observer: Observer<'o>) -> Self {
+    pub(super) fn new(
+        names: Vec<String>,
+        timetable: &Timetable,
+        observer: Observer<'o>,
+        (keeper, resumed): (Option<Keeper<'o>>, Option<MotionCheckpoint>),
+    ) -> Self {
         let span = timetable.span();
         let mut landings = timetable.landings.clone();
         landings.push(span.end);
@@ -218,8 +87,13 @@ impl<'o> Driver<'o> {
             instants: timetable.instants().to_vec(),
             next: 0,
             landings,
+            landing: 0,
             observer,
             steps: 0,
+            left: PIECE,
+            stopped: false,
+            keeper,
+            resumed,
         }
     }
 
@@ -239,17 +113,61 @@ impl<'o> Driver<'o> {
         self.steps += 1;
         self.time = time;
         let fraction = ((time - self.span.start) / (self.span.end - self.span.start)).clamp(0.0, 1.0);
-        (self.observer)(Progress { time, fraction, steps: self.steps })
+        let going = (self.observer)(Progress { time, fraction, steps: self.steps });
+        self.stopped = going.is_break();
+        going
     }
 
-    /// Records the state at the start.
-    fn begin(&mut self, state: &State, reading: &mut dyn Reading) {
+    /// A step of a fixed-step method, which ends a piece now and then.
+    fn fixed_step_done(&mut self, time: f64) -> ControlFlow<()> {
+        self.left = self.left.saturating_sub(1);
+        let going = self.step_done(time);
+        if self.left == 0 { ControlFlow::Break(()) } else { going }
+    }
+
+    /// Hands a checkpoint to the keeper if one is due.
+    fn keep(&mut self, stage: impl FnOnce() -> Stage) {
+        let Some((keeper, marks)) = &mut self.keeper else { return };
+        if !keeper.is_due() {
+            return;
+        }
+        let checkpoint = MotionCheckpoint {
+            marks: marks.clone(),
+            stage: stage(),
+            report: self.report,
+            steps: self.steps,
+            next: self.next,
+            landing: self.landing,
+            history: core::mem::take(&mut self.history),
+        };
+        keeper.keep(&checkpoint);
+        self.history = checkpoint.history;
+    }
+
+    /// Records the state at the start, or takes up what a checkpoint holds.
+    fn begin(&mut self, state: &mut State, reading: &mut dyn Reading) -> Option<Checkpoint> {
+        if let Some(MotionCheckpoint { stage, report, steps, next, landing, history, .. }) = self.resumed.take() {
+            (self.report, self.steps, self.next, self.landing, self.history) = (report, steps, next, landing, history);
+            let checkpoint = match stage {
+                Stage::Fixed(resumed) => {
+                    *state = resumed;
+                    None
+                }
+                Stage::Adaptive(checkpoint) => {
+                    state.clone_from(checkpoint.state());
+                    Some(checkpoint)
+                }
+            };
+            self.time = state.time;
+            return checkpoint;
+        }
         reading.record(state.time, &state.values, &mut self.history);
         let invariants = reading.invariants(state.time, &state.values);
         self.history.invariants.push(invariants);
         while self.instants.get(self.next).is_some_and(|t| self.span.order(*t, self.span.start).is_le()) {
             self.next += 1;
         }
+        None
     }
 
     /// A method of fixed step, from instant to instant.
@@ -257,6 +175,7 @@ impl<'o> Driver<'o> {
         self.begin(state, reading);
         while let Some(&instant) = self.instants.get(self.next) {
             let steps_before = self.steps;
+            self.left = PIECE;
             let result = advance(self, state, instant);
             self.time = state.time;
             match result {
@@ -266,6 +185,10 @@ impl<'o> Driver<'o> {
                     return Err(error.to_string());
                 }
             }
+            if self.report.ending == Ending::Stopped && !self.stopped {
+                self.keep(|| Stage::Fixed(state.clone()));
+                continue;
+            }
             reading.record(state.time, &state.values, &mut self.history);
             let invariants = reading.invariants(state.time, &state.values);
             self.history.invariants.push(invariants);
@@ -273,8 +196,34 @@ impl<'o> Driver<'o> {
             if self.report.ending == Ending::Stopped {
                 break;
             }
+            self.keep(|| Stage::Fixed(state.clone()));
         }
         Ok(())
+    }
+
+    /// A closed form of the state, written by `at` for any time, from instant to instant. No force is evaluated; an instant
+    /// counts as a step.
+    pub(super) fn closed_form(
+        &mut self,
+        at: &mut dyn FnMut(f64, &mut [f64]),
+        state: &mut State,
+        reading: &mut dyn Reading,
+    ) {
+        self.begin(state, reading);
+        while let Some(&instant) = self.instants.get(self.next) {
+            at(instant, &mut state.values);
+            state.time = instant;
+            reading.record(instant, &state.values, &mut self.history);
+            let invariants = reading.invariants(instant, &state.values);
+            self.history.invariants.push(invariants);
+            self.next += 1;
+            self.report.steps += 1;
+            if self.step_done(instant).is_break() {
+                self.report.ending = Ending::Stopped;
+                break;
+            }
+            self.keep(|| Stage::Fixed(state.clone()));
+        }
     }
 
     /// An explicit composition.
@@ -287,7 +236,7 @@ impl<'o> Driver<'o> {
     ) -> Result<(), String> {
         let mut field = AnyField(field as &mut dyn SeparableWithText);
         self.fixed(state, reading, &mut |driver, state, instant| {
-            method.integrate(&mut field, state, instant, |step| driver.step_done(step.time))
+            method.integrate(&mut field, state, instant, |step| driver.fixed_step_done(step.time))
         })
     }
 
@@ -313,7 +262,7 @@ impl<'o> Driver<'o> {
             Method::GaussLegendre { order, step } => {
                 let mut method = GaussLegendre::new(order, step).map_err(|error| error.to_string())?;
                 self.fixed(state, reading, &mut |driver, state, instant| {
-                    method.integrate(&mut field, state, instant, |step| driver.step_done(step.time))
+                    method.integrate(&mut field, state, instant, |step| driver.fixed_step_done(step.time))
                 })
             }
             Method::DormandPrince { tolerance } => {
@@ -330,6 +279,7 @@ impl<'o> Driver<'o> {
             Method::Nystrom86 { .. } | Method::Nystrom1210 { .. } => {
                 Err("a Nyström pair needs forces that depend on positions alone".to_string())
             }
+            Method::ClosedForm => Err("a closed form is there for bodies about a fixed centre alone".to_string()),
         }
     }
 
@@ -362,10 +312,10 @@ impl<'o> Driver<'o> {
         state: &mut State,
         reading: &mut dyn Reading,
     ) -> Result<(), String> {
-        self.landing_by_landing(state, reading, &mut |driver, state, landing, reading, between| {
+        self.landing_by_landing(state, reading, &mut |driver, from, state, landing, reading, between| {
             let mut dense = Ok(());
-            let result =
-                method.integrate(system, state, landing, |step| driver.pass(step, reading, between, &mut dense));
+            let result = method
+                .integrate_from(system, from, state, landing, |step| driver.pass(step, reading, between, &mut dense));
             (result, dense)
         })
     }
@@ -377,10 +327,10 @@ impl<'o> Driver<'o> {
         state: &mut State,
         reading: &mut dyn Reading,
     ) -> Result<(), String> {
-        self.landing_by_landing(state, reading, &mut |driver, state, landing, reading, between| {
+        self.landing_by_landing(state, reading, &mut |driver, from, state, landing, reading, between| {
             let mut dense = Ok(());
-            let result =
-                method.integrate(field, state, landing, |step| driver.pass(step, reading, between, &mut dense));
+            let result = method
+                .integrate_from(field, from, state, landing, |step| driver.pass(step, reading, between, &mut dense));
             (result, dense)
         })
     }
@@ -414,7 +364,11 @@ impl<'o> Driver<'o> {
             let invariants = reading.invariants(step.time(), step.values());
             self.history.invariants.push(invariants);
         }
-        self.step_done(step.time())
+        let going = self.step_done(step.time());
+        if going.is_continue() {
+            self.keep(|| Stage::Adaptive(step.checkpoint()));
+        }
+        going
     }
 
     /// An adaptive method, from landing to landing.
@@ -424,16 +378,18 @@ impl<'o> Driver<'o> {
         reading: &mut dyn Reading,
         advance: Landing<'_, 'o>,
     ) -> Result<(), String> {
-        self.begin(state, reading);
+        let mut from = self.begin(state, reading);
         let mut between = state.values.clone();
-        for landing in core::mem::take(&mut self.landings) {
+        while let Some(&landing) = self.landings.get(self.landing) {
             let steps_before = self.steps;
-            let (result, dense) = advance(self, state, landing, reading, &mut between);
+            let from = from.take();
+            let behind = from.as_ref().map_or(0, |from| from.report().steps);
+            let (result, dense) = advance(self, from.as_ref(), state, landing, reading, &mut between);
             self.time = state.time;
             match result {
                 Ok(report) => self.report = self.report.then(report),
                 Err(error) => {
-                    self.report.steps += self.steps - steps_before;
+                    self.report.steps += behind + self.steps - steps_before;
                     return Err(error.to_string());
                 }
             }
@@ -441,6 +397,7 @@ impl<'o> Driver<'o> {
             if self.report.ending == Ending::Stopped {
                 break;
             }
+            self.landing += 1;
         }
         Ok(())
     }

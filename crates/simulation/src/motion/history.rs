@@ -1,10 +1,13 @@
 //! The record of a run: positions and coordinates at instants, invariants at ends of steps.
 
+use serde::{Deserialize, Serialize};
+
 /// Positions, coordinates and invariants over time.
 ///
 /// # Example
 /// See [`simulate`](super::simulate).
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct History {
     /// Names of the bodies or parts.
@@ -45,7 +48,8 @@ pub struct History {
 ///
 /// # Example
 /// See [`simulate`](super::simulate).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PartReaction {
     /// Force, N, in space.
     pub force: [f64; 3],
@@ -60,7 +64,8 @@ pub type Scaled = ([f64; 3], f64);
 ///
 /// # Example
 /// See [`simulate`](super::simulate).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Invariants {
     /// Time, s.
     pub time: f64,

@@ -50,6 +50,8 @@ pub enum Method {
         /// Relative tolerance of a step.
         tolerance: f64,
     },
+    /// Kepler's closed form at every instant, without steps: for bodies on ellipses about a fixed centre.
+    ClosedForm,
 }
 
 impl fmt::Display for Method {
@@ -61,6 +63,7 @@ impl fmt::Display for Method {
             Self::Verner { .. } => f.write_str("verner-98"),
             Self::Nystrom86 { .. } => f.write_str("nystrom-86"),
             Self::Nystrom1210 { .. } => f.write_str("nystrom-1210"),
+            Self::ClosedForm => f.write_str("closed-form"),
         }
     }
 }
@@ -71,9 +74,11 @@ impl Method {
     pub fn step(&self) -> Option<f64> {
         match self {
             Self::Composition { step, .. } | Self::GaussLegendre { step, .. } => Some(*step),
-            Self::DormandPrince { .. } | Self::Verner { .. } | Self::Nystrom86 { .. } | Self::Nystrom1210 { .. } => {
-                None
-            }
+            Self::DormandPrince { .. }
+            | Self::Verner { .. }
+            | Self::Nystrom86 { .. }
+            | Self::Nystrom1210 { .. }
+            | Self::ClosedForm => None,
         }
     }
 }

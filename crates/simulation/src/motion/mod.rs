@@ -3,10 +3,12 @@
 //! | system | equations | invariants |
 //! |---|---|---|
 //! | [`Gravitation`] | ẍᵢ = Σⱼ Gmⱼ (xⱼ − xᵢ)/(rᵢⱼ² + ε²)^(3/2), with a post-Newtonian term on request | energy, momentum, angular momentum |
-//! | [`Central`] | ẍᵢ = −Gm xᵢ/rᵢ³ | energy, angular momentum |
+//! | [`Central`] | ẍᵢ = −Gm xᵢ/rᵢ³, or Kepler's closed form with [`Method::ClosedForm`] | energy, angular momentum |
 //! | [`Mechanism`](crate::joints::Mechanism) | Lagrange's of its tree of joints; Hamilton's with [`Method::GaussLegendre`] | energy less the works of its forces |
 //! | [`PhaseSystem`](crate::phase::PhaseSystem) | q̇ = ∂H/∂p, ṗ = −∂H/∂q | energy less ∫ ∂H/∂t dt |
 
+mod any_field;
+mod checkpoint;
 mod drive;
 mod energies;
 mod history;
@@ -21,13 +23,15 @@ use core::ops::ControlFlow;
 
 use piola_integrators::{Ending, Report};
 
+pub use checkpoint::{CheckpointKeeper, MotionCheckpoint};
 pub use history::{Drift, DriftAt, Drifts, History, Invariants, PartReaction, Scaled};
 pub use method::Method;
 pub use system::{Central, Gravitation, MassPoint, NEWTONIAN_CONSTANT, Orbiter, PostNewtonian, System};
 pub use timetable::{TimeSpan, Timetable};
 
-use crate::Outcome;
-use drive::Driver;
+use crate::{Outcome, SimulationError};
+use checkpoint::Marks;
+use drive::{Driver, Keeper, Observer};
 
 /// The progress of a run.
 ///
@@ -96,8 +100,76 @@ pub fn simulate(
     timetable: &Timetable,
     observer: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> MotionRun {
+    driven(system, method, timetable, (None, None), observer)
+}
+
+/// As [`simulate`], with checkpoints: the run begins at one if there is one, and gives others to their keeper.
+///
+/// The record is the same, to the last bit, as that of [`simulate`]. A mechanism with constraints gives no checkpoints: its
+/// motion remembers more than its state.
+///
+/// # Errors
+/// [`SimulationError::CheckpointOfOtherVersion`], [`SimulationError::CheckpointOfOtherRun`].
+///
+/// # Example
+/// ```
+/// use piola_simulation::motion::{CheckpointKeeper, MotionCheckpoint};
+/// use piola_simulation::motion::{Central, Method, Orbiter, System, TimeSpan, Timetable, resume, simulate};
+/// use std::ops::ControlFlow;
+/// /// Keeps the checkpoint after the tenth step.
+/// struct Tenth(u32, Option<MotionCheckpoint>);
+/// impl CheckpointKeeper for Tenth {
+///     fn is_due(&mut self) -> bool {
+///         self.0 += 1;
+///         self.0 == 10
+///     }
+///     fn keep(&mut self, checkpoint: &MotionCheckpoint) {
+///         self.1 = Some(checkpoint.clone());
+///     }
+/// }
+/// let comet = Orbiter { name: "comet".into(), mass: 1.0, position: [1.0, 0.0, 0.0], velocity: [0.0, 1.2, 0.0] };
+/// let system = System::Central(Central { gm: 1.0, bodies: vec![comet] });
+/// let timetable = Timetable::new(TimeSpan { start: 0.0, end: 50.0 }, 11, &[]);
+/// let method = Method::Verner { tolerance: 1e-12 };
+/// let mut keeper = Tenth(0, None);
+/// let whole = resume(&system, method, &timetable, None, &mut keeper, &mut |_| ControlFlow::Continue(()))?;
+/// assert!(keeper.1.as_ref().is_some_and(|kept| 0.0 < kept.time() && kept.time() < 50.0));
+/// let kept = keeper.1.take();
+/// let continued = resume(&system, method, &timetable, kept, &mut keeper, &mut |_| ControlFlow::Continue(()))?;
+/// assert_eq!((continued.history, continued.steps), (whole.history, whole.steps));
+/// # Ok::<(), piola_simulation::SimulationError>(())
+/// ```
+pub fn resume(
+    system: &System,
+    method: Method,
+    timetable: &Timetable,
+    checkpoint: Option<MotionCheckpoint>,
+    keeper: &mut dyn CheckpointKeeper,
+    observer: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<MotionRun, SimulationError> {
+    if let Some(checkpoint) = &checkpoint {
+        checkpoint.check(system, method, timetable)?;
+    }
+    let keeper: Option<Keeper<'_>> =
+        if gives_checkpoints(system) { Some((keeper, Marks::of(system, method, timetable))) } else { None };
+    Ok(driven(system, method, timetable, (keeper, checkpoint), observer))
+}
+
+/// Whether the motion of a system gives [checkpoints](MotionCheckpoint): all but mechanisms with constraints.
+#[must_use]
+pub fn gives_checkpoints(system: &System) -> bool {
+    !matches!(system, System::Mechanism(system) if !system.constraints.is_empty())
+}
+
+fn driven<'o>(
+    system: &System,
+    method: Method,
+    timetable: &Timetable,
+    (keeper, checkpoint): (Option<Keeper<'o>>, Option<MotionCheckpoint>),
+    observer: Observer<'o>,
+) -> MotionRun {
     let names = system.names().into_iter().map(str::to_string).collect();
-    let mut driver = Driver::new(names, timetable, observer);
+    let mut driver = Driver::new(names, timetable, observer, (keeper, checkpoint));
     let result = match system {
         System::Gravitation(system) => systems::gravitation(system, method, &mut driver),
         System::Mechanism(system) => mechanism::mechanism(system, method, &mut driver),

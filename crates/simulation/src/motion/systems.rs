@@ -3,6 +3,7 @@
 use core::convert::Infallible;
 
 use piola_gravitation as gravitation;
+use piola_gravitation::kepler::KeplerMotion;
 use piola_gravitation::{Gravitation, SPEED_OF_LIGHT, attraction};
 use piola_integrators::{Composition, Field, SecondOrder, Separable, State};
 use piola_numerics::sums::CompensatedSum;
@@ -76,6 +77,26 @@ pub(super) fn central(system: &model::Central, method: Method, driver: &mut Driv
         }
         Method::Nystrom86 { .. } | Method::Nystrom1210 { .. } => {
             driver.second_order(method, &mut field, &mut state, &mut CentralReading(system))
+        }
+        Method::ClosedForm => {
+            let motions: Vec<KeplerMotion> = system
+                .bodies
+                .iter()
+                .map(|body| {
+                    let motion = KeplerMotion::new(system.gm, body.position, body.velocity);
+                    motion.map_err(|error| format!("the closed form of {}: {error}", body.name))
+                })
+                .collect::<Result<_, _>>()?;
+            let (start, n) = (driver.start(), 3 * system.bodies.len());
+            let mut at = |t: f64, values: &mut [f64]| {
+                for (motion, i) in motions.iter().zip((0..n).step_by(3)) {
+                    let (position, velocity) = motion.state(t - start);
+                    values[i..i + 3].copy_from_slice(&position);
+                    values[n + i..n + i + 3].copy_from_slice(&velocity);
+                }
+            };
+            driver.closed_form(&mut at, &mut state, &mut CentralReading(system));
+            Ok(())
         }
         _ => driver.field(method, &mut field, &mut state, &mut CentralReading(system)),
     }

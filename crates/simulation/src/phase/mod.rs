@@ -4,6 +4,7 @@
 //! q̇ = ∂H/∂p        ṗ = −∂H/∂q        dH/dt = ∂H/∂t
 //! ```
 
+mod canonical;
 mod questions;
 
 use core::ops::ControlFlow;
@@ -18,6 +19,7 @@ use crate::forces::{exists, in_coordinates};
 use crate::joints::finite;
 use crate::motion::TimeSpan;
 
+pub use canonical::{BracketQuestion, NewVariables};
 pub use questions::{PhaseAnswers, PhaseQuestions};
 
 /// A function of coordinates, momenta and time as an expression: [`Variable::Conjugate`] are the momenta.

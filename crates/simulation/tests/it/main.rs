@@ -1,5 +1,6 @@
 //! Tests of simulated motions and wave fronts: closed forms, conservation, and the definitions of what is recorded.
 
+mod checkpoints;
 mod constraints;
 mod drifts;
 mod forces;

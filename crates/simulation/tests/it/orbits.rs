@@ -77,3 +77,23 @@ fn observer_is_told_the_share_of_the_span_that_is_done() {
         assert_eq!((seen.len(), seen.last()), (30, Some(&(run.steps, 1.0))));
     }
 }
+
+#[test]
+fn a_closed_form_gives_keplers_motion_itself_and_refuses_what_is_no_ellipse() {
+    let run = complete(Method::ClosedForm);
+    assert_eq!((run.steps, run.force_evaluations), (6, 0));
+    for (number, body) in pair().bodies.iter().enumerate() {
+        let Ok(motion) = KeplerMotion::new(1.5, body.position, body.velocity) else { panic!("a bound orbit") };
+        for (t, places) in run.history.times.iter().zip(&run.history.positions).skip(1) {
+            assert_eq!(places[number].map(f64::to_bits), motion.position(t - SPAN.start).map(f64::to_bits));
+        }
+    }
+    let drift = run.history.drifts().energy.map_or(f64::NAN, |drift| drift.max_relative);
+    assert_close("energy", &[drift], &[0.0], Tol::ulps(16.0));
+    let mut fast = pair();
+    fast.bodies[1].velocity = [5.0, 0.0, 0.0];
+    let timetable = Timetable::new(SPAN, 7, &[]);
+    let run = simulate(&System::Central(fast), Method::ClosedForm, &timetable, &mut |_| ControlFlow::Continue(()));
+    let Outcome::Failed(why) = run.outcome else { panic!("{:?}", run.outcome) };
+    assert!(why.contains("the closed form of near") && why.contains("not an ellipse"), "{why}");
+}

@@ -7,7 +7,7 @@ use piola_integrators::Order;
 use piola_simulation::expression::{Expression, ExpressionNode as Node, Function, Operation, Variable};
 use piola_simulation::forces::{Force, ForceKind};
 use piola_simulation::joints::{Coordinate, Joint, JointMotion, Mechanism, Part, PartKind};
-use piola_simulation::motion::{Method, MotionRun, System, TimeSpan, Timetable, simulate};
+use piola_simulation::motion::{History, Method, MotionRun, System, TimeSpan, Timetable, simulate};
 use piola_simulation::phase::{PhaseExpression, PhaseQuestions, PhaseSystem};
 use piola_simulation::questions::{MechanismQuestions, Stability};
 use piola_simulation::{Outcome, SimulationError};
@@ -115,16 +115,17 @@ fn neighbours_of_a_pencil_on_its_tip_part_with_its_rate() {
     let nodes =
         kinetic_and(vec![Node::Constant(-0.125), Q, Node::WholePower(5, 2), Node::Operation(Operation::Product, 4, 6)]);
     let mut pencil = system(nodes, 0.0, 0.0);
-    pencil.questions = PhaseQuestions { section: None, exponent: true, tolerance: 1e-11 };
+    pencil.questions = PhaseQuestions { exponent: true, tolerance: 1e-11, ..PhaseQuestions::default() };
     let mut shares = Vec::new();
-    let (answers, outcome) = pencil.answers(TimeSpan { start: 0.0, end: 400.0 }, &mut |share| {
+    let (answers, outcome) = pencil.answers(TimeSpan { start: 0.0, end: 400.0 }, &History::default(), &mut |share| {
         shares.push(share);
         ControlFlow::Continue(())
     });
     assert_eq!((outcome, answers.estimates.len(), shares.len()), (Outcome::Completed, 400, 401));
     let tolerance = Tol::stated(1e-2, "the estimate converges as 1/t does, and t = 400 s");
     assert_close("exponent", &[answers.exponent.unwrap_or_default()], &[0.5], tolerance);
-    let (answers, outcome) = pencil.answers(TimeSpan { start: 0.0, end: 400.0 }, &mut |_| ControlFlow::Break(()));
+    let (answers, outcome) =
+        pencil.answers(TimeSpan { start: 0.0, end: 400.0 }, &History::default(), &mut |_| ControlFlow::Break(()));
     assert_eq!((outcome, answers.exponent), (Outcome::Interrupted, None));
 }
 
@@ -134,8 +135,9 @@ fn an_oscillator_crosses_its_section_once_a_turn() {
         kinetic_and(vec![Node::Constant(0.5), Q, Node::WholePower(5, 2), Node::Operation(Operation::Product, 4, 6)]);
     let mut oscillator = system(nodes, 1.0, 0.0);
     let section = Some((PhaseExpression(expression(vec![Q])), 3));
-    oscillator.questions = PhaseQuestions { section, exponent: false, tolerance: 1e-12 };
-    let (answers, _) = oscillator.answers(TimeSpan { start: 0.0, end: 100.0 }, &mut |_| ControlFlow::Continue(()));
+    oscillator.questions = PhaseQuestions { section, tolerance: 1e-12, ..PhaseQuestions::default() };
+    let (answers, _) = oscillator
+        .answers(TimeSpan { start: 0.0, end: 100.0 }, &History::default(), &mut |_| ControlFlow::Continue(()));
     assert_eq!(answers.crossings.len(), 3);
     for (turn, (t, point)) in answers.crossings.iter().enumerate() {
         let tolerance = Tol::stated(1e-11, "the tolerance times some twenty steps");
@@ -264,8 +266,9 @@ fn the_fastest_turn_is_found_along_the_motion() {
 #[test]
 fn the_exponent_of_a_run_backwards_in_time_is_refused() {
     let mut pendulum = pendulum();
-    pendulum.questions = PhaseQuestions { section: None, exponent: true, tolerance: 1e-11 };
-    let (answers, outcome) = pendulum.answers(TimeSpan { start: 10.0, end: 0.0 }, &mut |_| ControlFlow::Continue(()));
+    pendulum.questions = PhaseQuestions { exponent: true, tolerance: 1e-11, ..PhaseQuestions::default() };
+    let (answers, outcome) =
+        pendulum.answers(TimeSpan { start: 10.0, end: 0.0 }, &History::default(), &mut |_| ControlFlow::Continue(()));
     assert!(matches!(&outcome, Outcome::Failed(why) if why.contains("backwards in time")), "{outcome:?}");
     assert_eq!(answers.exponent, None);
 }

@@ -53,6 +53,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     // document, by feature: expressions from text with units.
     ("expression", &["numerics", "document"]),
     ("simulation", &["hamiltonian", "gravitation", "expression"]),
+    ("schema", &["document"]),
     ("charts", &[]),
     ("measured", &["document", "charts", "spectra"]),
     // solutions, by feature: twisted rods.
@@ -61,7 +62,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     // robots.
     (
         "scene",
-        &["document", "charts", "simulation", "characteristics", "solutions", "uniformity", "spectral", "multibody"],
+        &["schema", "charts", "simulation", "characteristics", "solutions", "uniformity", "spectral", "multibody"],
     ),
     ("ensemble", &["scene"]),
     // charts: the folder of the results.

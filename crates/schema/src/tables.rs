@@ -17,7 +17,7 @@ pub static SCENE_KINDS: [SceneKind; 13] = [
     motion("gravity", &["body"]),
     motion("mechanism", &["joint", "particle", "rigid_body", "force", "constraint", "parameters", "questions"]),
     motion("central", &["body"]),
-    motion("hamiltonian", &["coordinate", "parameters", "questions"]),
+    motion("hamiltonian", &["coordinate", "parameters", "questions", "bracket", "new_coordinate"]),
     study("wavefront", &["medium"]),
     study("room", &[]),
     study("balloon", &["law"]),
@@ -96,6 +96,10 @@ table! {
         rigid_body: Kind::Tables(&RIGID_BODY), Optional;
         /// The coordinates of a `[hamiltonian]`.
         coordinate: Kind::Tables(&phase::COORDINATE), Optional;
+        /// Poisson brackets that are asked of a `[hamiltonian]`.
+        bracket: Kind::Tables(&phase::BRACKET), Optional;
+        /// A change of the variables of a `[hamiltonian]`, which is tested.
+        new_coordinate: Kind::Tables(&phase::NEW_COORDINATE), Optional;
         /// What is asked of a `[mechanism]` or a `[hamiltonian]` besides its motion.
         questions: Kind::Table(&phase::QUESTIONS), Optional;
         /// What acts on a `[mechanism]` besides gravity.
@@ -270,7 +274,7 @@ table! {
 }
 
 /// The methods of integration.
-pub static METHODS: [Word; 13] = [
+pub static METHODS: [Word; 14] = [
     word("auto", "chosen by the planner, which says why"),
     word(
         "composition-2",
@@ -287,6 +291,7 @@ pub static METHODS: [Word; 13] = [
     word("verner-98", "explicit Runge–Kutta of order 9(8), adaptive step"),
     word("nystrom-86", "explicit Nyström of order 8(6), adaptive step; forces must not depend on velocity"),
     word("nystrom-1210", "the same of order 12(10)"),
+    word("closed-form", "Kepler's motion at every instant, without steps, for ellipses of `[central]` alone"),
 ];
 
 table! {

@@ -1,7 +1,9 @@
-//! The keys of a scene, stated once.
+//! The keys of scenes of mechanics, stated once.
+#![doc = include_str!("../README.md")]
 //!
 //! [`SCENE`] is a tree of [`Table`]s of [`Key`]s: name, kind, unit, default, documentation. Validation, the JSON Schema
 //! for editors ([`json_schema`]) and the tables of the scene reference ([`markdown`]) all read it.
+#![forbid(unsafe_code)]
 
 mod boxes;
 mod forces;
@@ -43,7 +45,7 @@ const fn quantity(dimension: Dimension, range: Range) -> Kind {
 ///
 /// # Example
 /// ```
-/// let schema = piola_scene::schema::json_schema();
+/// let schema = piola_schema::json_schema();
 /// assert_eq!(schema["properties"]["gravity"]["properties"]["post_newtonian"]["type"], "boolean");
 /// ```
 #[must_use]

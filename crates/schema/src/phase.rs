@@ -32,6 +32,32 @@ table! {
 }
 
 table! {
+    /// A Poisson bracket {F, G} = Σ ∂F/∂qᵢ ∂G/∂pᵢ − ∂F/∂pᵢ ∂G/∂qᵢ of a `[hamiltonian]`, by exact derivatives, at every recorded
+    /// instant. F without `t` is conserved where its bracket with H vanishes.
+    pub(super) static BRACKET = "bracket" {
+        /// Name of the bracket, unlike any other.
+        name: Name, Required;
+        /// F, an expression of coordinates, momenta, `t` and `[parameters]` without units.
+        first: Text, Required;
+        /// G, such an expression; the Hamiltonian H when absent.
+        second: Text, Optional;
+    }
+}
+
+table! {
+    /// A new coordinate of a `[hamiltonian]` with its momentum, as functions of the old ones. The change of variables has as many as
+    /// there are old ones. At every recorded instant it is tested whether it is canonical: dP ∧ dQ = dp ∧ dq.
+    pub(super) static NEW_COORDINATE = "new_coordinate" {
+        /// Name of the new coordinate, unlike any other.
+        name: Name, Required;
+        /// Q, an expression of coordinates, momenta, `t` and `[parameters]` without units.
+        coordinate: Text, Required;
+        /// P, such an expression.
+        momentum: Text, Required;
+    }
+}
+
+table! {
     /// What is asked besides the motion. The answers stand in `summary.json` and in tables of their own.
     pub(super) static QUESTIONS = "questions" {
         /// Of a `[hamiltonian]`: the surface s = 0 of a Poincaré section, an expression of coordinates, momenta and `t`. Recorded is

@@ -1,0 +1,119 @@
+//! Runs that are killed and continued.
+
+use std::path::Path;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+use crate::end_to_end::{Folder, err};
+
+/// A double pendulum whose steps are fixed, and an orbit whose steps adapt: each takes about a second and records 2001 instants.
+const SCENES: [(&str, &str); 2] = [
+    (
+        "double-pendulum",
+        "[mechanism]\n[[joint]]\nname = 'shoulder'\ntype = 'revolute'\naxis = [0, 1, 0]\nangle = 1.5\n\
+         [[joint]]\nname = 'elbow'\nparent = 'shoulder'\ntype = 'revolute'\naxis = [0, 1, 0]\noffset = [0, 0, -1]\nangle = 1.0\n\
+         [[particle]]\nname = 'upper'\njoint = 'shoulder'\nmass = 1.0\nat = [0, 0, -1]\n\
+         [[particle]]\nname = 'lower'\njoint = 'elbow'\nmass = 1.0\nat = [0, 0, -1]\n\
+         [time]\nend = 100\n[integrator]\nstep = 0.01\n[output]\nsamples = 2001\n",
+    ),
+    (
+        "orbit",
+        "[central]\ngm = 1.0\n[[body]]\nname = 'comet'\nsemi_major_axis = 1.0\neccentricity = 0.9\n\
+         [time]\nrevolutions = 1500\n[integrator]\nmethod = 'verner-98'\n[output]\nsamples = 2001\n",
+    ),
+];
+
+/// The files of a folder that a run has written, without the line of the wall time.
+fn files(folder: &Path) -> Vec<(String, String)> {
+    let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{error}"));
+    let mut files: Vec<_> = entries
+        .map(|entry| {
+            let path = entry.unwrap_or_else(|error| panic!("{error}")).path();
+            let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{error}"));
+            let lines = text.lines().filter(|line| !line.contains("\"wall_time_s\""));
+            (path.file_name().unwrap_or_default().to_string_lossy().into_owned(), lines.collect::<Vec<_>>().join("\n"))
+        })
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn a_run_that_is_killed_several_times_goes_on_and_writes_the_same_bytes() {
+    for (name, text) in SCENES {
+        let folder = Folder::new(&format!("resume-{name}"));
+        let scene = folder.scene(text);
+        let scene = scene.to_str().unwrap_or_default();
+        let whole = folder.piola(&["run", scene, "--out", "whole"]);
+        assert_eq!(whole.status.code(), Some(0), "{}", err(&whole));
+        let checkpoint = folder.0.join("cut/.piola-checkpoint");
+        let cut = ["run", scene, "--out", "cut", "--checkpoint", "0.01", "--resume"];
+        // Killed as soon as it has a first checkpoint, and then as soon as it has another one.
+        for _ in 0..3 {
+            let before = std::fs::read(&checkpoint).ok();
+            let mut child = folder.command(&cut).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+            let begun = Instant::now();
+            while std::fs::read(&checkpoint).ok() == before && begun.elapsed() < Duration::from_secs(60) {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            let killed = child.as_mut().map(|child| child.kill().and_then(|()| child.wait()));
+            assert!(matches!(killed, Ok(Ok(status)) if status.code().is_none()), "{name}: not killed while it ran");
+            assert!(!folder.0.join("cut/summary.json").exists());
+        }
+        let last = folder.piola(&cut);
+        assert_eq!(last.status.code(), Some(0), "{}", err(&last));
+        assert!(err(&last).contains("the run goes on at "), "{}", err(&last));
+        assert!(!checkpoint.exists());
+        assert_eq!(files(&folder.0.join("cut")), files(&folder.0.join("whole")), "{name}");
+    }
+}
+
+#[test]
+fn a_checkpoint_of_another_scene_or_version_and_one_that_is_torn_are_refused() {
+    let folder = Folder::new("resume-refused");
+    let scene = folder.scene(SCENES[1].1);
+    let scene = scene.to_str().unwrap_or_default();
+    let run = ["run", scene, "--out", "out", "--resume", "--checkpoint", "0.01"];
+    let mut child = folder.command(&run).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+    let checkpoint = folder.0.join("out/.piola-checkpoint");
+    let begun = Instant::now();
+    while !checkpoint.exists() && begun.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let killed = child.as_mut().map(|child| child.kill().and_then(|()| child.wait()));
+    assert!(matches!(killed, Ok(Ok(_))));
+    let refused = |more: &[&str], why: &str| {
+        let output = folder.piola(&[run.as_slice(), more].concat());
+        assert_eq!(output.status.code(), Some(2), "{}", err(&output));
+        assert!(err(&output).contains(why), "{}", err(&output));
+    };
+    refused(&["--set", "body.comet.eccentricity=0.8"], "the checkpoint is of another run");
+    let text = std::fs::read_to_string(&checkpoint).unwrap_or_else(|error| panic!("{error}"));
+    let version = concat!("\"version\":\"", env!("CARGO_PKG_VERSION"), "\"");
+    assert!(text.contains(version));
+    let write = |text: &str| std::fs::write(&checkpoint, text).unwrap_or_else(|error| panic!("{error}"));
+    write(&text.replacen(version, "\"version\":\"0.0.9\"", 1));
+    refused(&[], "the checkpoint is of Piola 0.0.9");
+    write(&text[..text.len() / 2]);
+    refused(&[], "cannot be read");
+    write(&text);
+    refused(&["--set", "time.revolutions=1501"], "the checkpoint is of another run");
+    refused(&["--set", "integrator.tolerance=1e-11"], "the checkpoint is of another run");
+    let negative = folder.piola(&["run", scene, "--checkpoint=-1"]);
+    assert_eq!(negative.status.code(), Some(2));
+    assert!(err(&negative).contains("a number of seconds from 0 to 1e9 is needed"), "{}", err(&negative));
+}
+
+#[test]
+fn a_run_without_a_checkpoint_says_so_and_begins_at_its_start() {
+    let folder = Folder::new("resume-absent");
+    let short = SCENES[1].1.replace("1500", "3");
+    let scene = folder.scene(&short);
+    let output = folder.piola(&["run", scene.to_str().unwrap_or_default(), "--out", "out", "--resume"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert!(err(&output).contains("there is no checkpoint"), "{}", err(&output));
+    let study = folder.scene("[wavefront]\ntype = 'point'\nlength = 1.0\n[[medium]]\ntype = 'uniform'\n");
+    let output = folder.piola(&["run", study.to_str().unwrap_or_default(), "--out", "out", "--resume"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("a study leaves no checkpoints"), "{}", err(&output));
+}

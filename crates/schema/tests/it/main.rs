@@ -1,0 +1,3 @@
+//! Tests of the declared keys.
+
+mod keys;

@@ -1,0 +1,113 @@
+//! A run at one of its steps, from which it can be continued.
+
+use core::fmt::{self, Write};
+
+use piola_integrators::{Checkpoint, Report, State};
+use serde::{Deserialize, Serialize};
+
+use super::{History, Method, System, Timetable};
+use crate::SimulationError;
+
+/// A run at the end of one of its steps, with all that it has recorded. Continued by [`resume`](super::resume), the run gives
+/// the same record, to the last bit, as one that was never stopped.
+///
+/// Use a format of serde that keeps every digit of a number. JSON has no infinite numbers and no NaN: a checkpoint that holds
+/// one is written, but cannot be read again. The run that made it would fail at its end.
+///
+/// # Example
+/// See [`resume`](super::resume).
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MotionCheckpoint {
+    pub(super) marks: Marks,
+    pub(super) stage: Stage,
+    pub(super) report: Report,
+    pub(super) steps: u64,
+    pub(super) next: usize,
+    pub(super) landing: usize,
+    pub(super) history: History,
+}
+
+/// The version and the run that a checkpoint belongs to.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Marks {
+    version: String,
+    run: u64,
+}
+
+/// What a method goes on from.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) enum Stage {
+    /// Of a method of fixed step.
+    Fixed(State),
+    /// Of an adaptive method.
+    Adaptive(Checkpoint),
+}
+
+impl Marks {
+    /// Of a run: the version of this crate, and a fingerprint of the system, the method and the instants.
+    pub(super) fn of(system: &System, method: Method, timetable: &Timetable) -> Self {
+        let mut fingerprint = Fingerprint::default();
+        // Every field of these types is in their text, numbers with all their digits; a fingerprint takes any text.
+        let _ = write!(fingerprint, "{system:?}{method:?}{timetable:?}");
+        Self { version: env!("CARGO_PKG_VERSION").to_string(), run: fingerprint.0 }
+    }
+}
+
+/// The hash FNV-1a of a text, of 64 bits.
+struct Fingerprint(u64);
+
+impl Default for Fingerprint {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Write for Fingerprint {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        for byte in text.bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+        Ok(())
+    }
+}
+
+impl MotionCheckpoint {
+    /// Time reached, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        match &self.stage {
+            Stage::Fixed(state) => state.time,
+            Stage::Adaptive(checkpoint) => checkpoint.state().time,
+        }
+    }
+
+    /// Checks that this version of Piola made the checkpoint, in a run of this system by this method at these instants.
+    ///
+    /// # Errors
+    /// [`SimulationError::CheckpointOfOtherVersion`], [`SimulationError::CheckpointOfOtherRun`].
+    pub fn check(&self, system: &System, method: Method, timetable: &Timetable) -> Result<(), SimulationError> {
+        let expected = Marks::of(system, method, timetable);
+        if self.marks.version != expected.version {
+            let (found, expected) = (self.marks.version.clone(), expected.version);
+            return Err(SimulationError::CheckpointOfOtherVersion { found, expected });
+        }
+        if self.marks.run != expected.run {
+            return Err(SimulationError::CheckpointOfOtherRun);
+        }
+        Ok(())
+    }
+}
+
+/// Keeps the checkpoints of a run, for instance in a file.
+///
+/// # Example
+/// See [`resume`](super::resume).
+pub trait CheckpointKeeper {
+    /// Whether a checkpoint is wanted now. An adaptive method asks after every step. A method of fixed step asks at every instant
+    /// that is recorded, and after every thousand steps between two instants.
+    fn is_due(&mut self) -> bool;
+    /// Takes a checkpoint.
+    fn keep(&mut self, checkpoint: &MotionCheckpoint);
+}
