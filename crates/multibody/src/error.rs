@@ -158,25 +158,25 @@ pub enum MultibodyError {
     /// A condition of linear algebra.
     #[error(transparent)]
     Numerics(piola_numerics::NumericsError),
-    /// A URDF text violates a condition.
+    /// The text of a robot's file violates a condition.
     #[error("line {line}: {fault}")]
-    Urdf {
+    InFile {
         /// The line, from 1.
         line: usize,
         /// The condition.
-        fault: UrdfFault,
+        fault: FileFault,
     },
-    /// A URDF file cannot be read.
+    /// A robot's file cannot be read.
     #[error("cannot read {path}: {reason}")]
-    UrdfFile {
+    UnreadableFile {
         /// The file.
         path: String,
         /// The reason given by the system.
         reason: String,
     },
-    /// A URDF file is longer than those that are read.
-    #[error("{path} has more than {limit} bytes, the most that a URDF file may have")]
-    UrdfFileTooLong {
+    /// A robot's file is longer than those that are read.
+    #[error("{path} has more than {limit} bytes, the most that a robot's file may have")]
+    FileTooLong {
         /// The file.
         path: String,
         /// The most bytes that are read.
@@ -200,10 +200,10 @@ pub enum MultibodyError {
     },
 }
 
-/// What is wrong at a line of a URDF text.
+/// What is wrong at a line of a robot's file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum UrdfFault {
+pub enum FileFault {
     /// The text is no XML.
     #[error("{reason}")]
     Syntax {
@@ -231,6 +231,44 @@ pub enum UrdfFault {
         attribute: &'static str,
         /// Its text.
         text: String,
+    },
+    /// A word that is not one of those that an attribute may have.
+    #[error("`{attribute}` is \"{text}\"; it must be {valid}")]
+    NoSuchWord {
+        /// The attribute.
+        attribute: &'static str,
+        /// Its text.
+        text: String,
+        /// What it may be.
+        valid: &'static str,
+    },
+    /// Two attributes that say the same thing.
+    #[error("`{element}` has `{first}` and `{second}`; one of them is enough")]
+    TwoAttributes {
+        /// The element.
+        element: String,
+        /// One attribute.
+        first: &'static str,
+        /// The other.
+        second: &'static str,
+    },
+    /// An element names something that does not exist.
+    #[error("there is no {what} named `{name}`")]
+    NoSuchName {
+        /// "class", "body", "joint" or "site".
+        what: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// A number outside its range.
+    #[error("`{attribute}` is {value}; it must satisfy {condition}")]
+    OutOfRange {
+        /// The attribute.
+        attribute: &'static str,
+        /// Its value.
+        value: f64,
+        /// The condition.
+        condition: &'static str,
     },
     /// A length of a shape is negative.
     #[error("`{attribute}` is {value}; it must not be negative")]

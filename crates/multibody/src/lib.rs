@@ -13,6 +13,8 @@ mod derivatives;
 mod elementary;
 mod error;
 mod factorisation;
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
+mod files;
 mod forward_dynamics;
 mod group;
 mod inverse_dynamics;
@@ -21,6 +23,8 @@ mod kinematics;
 mod link;
 mod loops;
 mod mass_matrix;
+#[cfg(feature = "mjcf")]
+mod mjcf;
 mod momentum;
 mod motion;
 mod reactions;
@@ -37,12 +41,16 @@ mod workspace;
 
 pub use batch::{BatchWorkspace, StateBlocks};
 pub use derivatives::AccelerationDerivatives;
-pub use error::{MultibodyError, UrdfFault};
+pub use error::{FileFault, MultibodyError};
 pub use factorisation::TreeFactors;
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
+pub use files::{FileInertias, Visual, VisualShape};
 pub use group::TreeGroup;
 pub use inverse_dynamics::AppliedWrench;
 pub use kinematics::{FrameAcceleration, FramePlace, FrameVelocity};
 pub use loops::{BodyPoint, ClosedMotion, ClosedTree, LoopClosure, LoopWorkspace};
+#[cfg(feature = "mjcf")]
+pub use mjcf::{FileMotor, Mjcf, MjcfOptions, SkippedElement};
 pub use momentum::{CentroidalMomentum, MassCentre, TreeEnergies};
 pub use motion::TreeMotion;
 pub use piola_kinematics::SingularPosition;
@@ -50,6 +58,6 @@ pub use reactions::JointReaction;
 pub use regressor::INERTIAL_PARAMETERS;
 pub use tree::{BodyIndex, BodyInertia, FrameIndex, JointKind, JointPlace, RigidTree, RigidTreeBuilder, TreeJoint};
 #[cfg(feature = "urdf")]
-pub use urdf::{Mimic, Urdf, UrdfBase, UrdfInertias, UrdfOptions, Visual, VisualShape};
+pub use urdf::{Mimic, Urdf, UrdfBase, UrdfOptions};
 pub use variational::VariationalTree;
 pub use workspace::TreeWorkspace;

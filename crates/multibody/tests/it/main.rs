@@ -8,6 +8,8 @@ mod golden;
 mod laws;
 mod loops;
 mod mechanisms;
+#[cfg(feature = "mjcf")]
+mod mjcf;
 mod motions;
 mod placement;
 mod singular;

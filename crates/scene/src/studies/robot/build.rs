@@ -3,7 +3,7 @@
 use piola_document::{Mistake, Record, words};
 use piola_kinematics::Attitude;
 use piola_multibody::{
-    BodyIndex, BodyPoint, ClosedTree, JointKind, JointPlace, LoopClosure, MultibodyError, Urdf, UrdfBase, UrdfInertias,
+    BodyIndex, BodyPoint, ClosedTree, JointKind, JointPlace, LoopClosure, MultibodyError, Urdf, UrdfBase, FileInertias,
     UrdfOptions,
 };
 
@@ -31,7 +31,7 @@ impl Builder<'_> {
         let file = self.document.folder().join(table.text("file")?);
         let options = UrdfOptions {
             base: if table.text("base")? == "free" { UrdfBase::Free } else { UrdfBase::Fixed },
-            inertias: if table.text("inertias")? == "checked" { UrdfInertias::Checked } else { UrdfInertias::AsGiven },
+            inertias: if table.text("inertias")? == "checked" { FileInertias::Checked } else { FileInertias::AsGiven },
         };
         let urdf = Urdf::read(&file, options);
         let mut urdf =
