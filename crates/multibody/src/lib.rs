@@ -39,7 +39,7 @@ mod urdf;
 mod variational;
 mod workspace;
 
-pub use batch::{BatchWorkspace, StateBlocks};
+pub use batch::{BatchWorkspace, DerivativeBlocks, StateBlocks};
 pub use derivatives::AccelerationDerivatives;
 pub use error::{FileFault, MultibodyError};
 pub use factorisation::TreeFactors;

@@ -75,24 +75,29 @@ impl<T: Real> Kernel for MassMatrix<'_, T> {
     type Output = ();
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) {
-        let Self { tree, work, q, out } = self;
-        let TreeWorkspace { space, rows, composite, forces, .. } = work;
-        for (i, link) in tree.links.iter().enumerate() {
-            for_kind!(link.kind, place::<T>(link, i + 1, q, space, forces));
-        }
-        pass_subspaces(tree, space, rows);
-        if tree.links.iter().any(|link| link.run != 1) {
-            out.fill(T::zero());
-        }
-        for (link, composite) in tree.links.iter().zip(&mut composite[1..]) {
-            composite.moment = lit(link.moment);
-            composite.inertia = lit_symmetric(link.inertia);
-            composite.mass = T::lit(link.mass);
-        }
-        let reference = reference(space);
-        for (i, link) in tree.links.iter().enumerate().rev() {
-            for_kind!(link.kind, column::<T>(tree, link, i + 1, forces, space, composite, reference, rows, out));
-        }
+        fill(self.tree, self.work, self.q, self.out);
+    }
+}
+
+/// The mass matrix without checks.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn fill<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace<T>, q: &[T], out: &mut [T]) {
+    let TreeWorkspace { space, rows, composite, forces, .. } = work;
+    for (i, link) in tree.links.iter().enumerate() {
+        for_kind!(link.kind, place::<T>(link, i + 1, q, space, forces));
+    }
+    pass_subspaces(tree, space, rows);
+    if tree.links.iter().any(|link| link.run != 1) {
+        out.fill(T::zero());
+    }
+    for (link, composite) in tree.links.iter().zip(&mut composite[1..]) {
+        composite.moment = lit(link.moment);
+        composite.inertia = lit_symmetric(link.inertia);
+        composite.mass = T::lit(link.mass);
+    }
+    let reference = reference(space);
+    for (i, link) in tree.links.iter().enumerate().rev() {
+        for_kind!(link.kind, column::<T>(tree, link, i + 1, forces, space, composite, reference, rows, out));
     }
 }
 

@@ -124,23 +124,35 @@ impl<T: Real> Kernel for Derivatives<'_, T> {
     type Output = bool;
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> bool {
-        let Self { tree, work, q, v, tau, out } = self;
-        let n = tree.freedoms;
-        let AccelerationDerivatives { acceleration, by_q, by_v, by_tau } = out;
-        pass_outwards(tree, &mut work.articulation, q, v);
-        let is_positive = pass_inwards(tree, work, tau, acceleration);
-        pass_accelerations(tree, &mut work.articulation, &work.gains, acceleration);
-        let TreeWorkspace { articulation, space, .. } = &mut *work;
-        for (i, link) in tree.links.iter().enumerate() {
-            for_kind!(link.kind, place::<T>(link, &articulation[i + 1], i + 1, space));
-        }
-        differentiate(tree, work, v, acceleration, by_q, by_v, None);
-        by_tau.fill(T::zero());
-        for j in 0..n {
-            by_tau[j * n + j] = T::one();
-        }
-        gains_in_space(tree, work);
-        solve_columns(tree, work, &mut [&mut by_q[..], &mut by_v[..], &mut by_tau[..]], &[-1.0, -1.0, 1.0], n);
-        is_positive.all() && all_finite(by_q) && all_finite(by_v) && all_finite(by_tau)
+        differentiate_accelerations(self.tree, self.work, self.q, self.v, self.tau, self.out)
     }
+}
+
+/// The accelerations and their derivatives without checks; true where all reduced inertias are positive and all is finite.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn differentiate_accelerations<T: Real>(
+    tree: &RigidTree,
+    work: &mut TreeWorkspace<T>,
+    q: &[T],
+    v: &[T],
+    tau: &[T],
+    out: &mut AccelerationDerivatives<T>,
+) -> bool {
+    let n = tree.freedoms;
+    let AccelerationDerivatives { acceleration, by_q, by_v, by_tau } = out;
+    pass_outwards(tree, &mut work.articulation, q, v);
+    let is_positive = pass_inwards(tree, work, tau, acceleration);
+    pass_accelerations(tree, &mut work.articulation, &work.gains, acceleration);
+    let TreeWorkspace { articulation, space, .. } = &mut *work;
+    for (i, link) in tree.links.iter().enumerate() {
+        for_kind!(link.kind, place::<T>(link, &articulation[i + 1], i + 1, space));
+    }
+    differentiate(tree, work, v, acceleration, by_q, by_v, None);
+    by_tau.fill(T::zero());
+    for j in 0..n {
+        by_tau[j * n + j] = T::one();
+    }
+    gains_in_space(tree, work);
+    solve_columns(tree, work, &mut [&mut by_q[..], &mut by_v[..], &mut by_tau[..]], &[-1.0, -1.0, 1.0], n);
+    is_positive.all() && all_finite(by_q) && all_finite(by_v) && all_finite(by_tau)
 }
