@@ -92,6 +92,28 @@ pub enum MultibodyError {
         /// The reduced inertia, kg or kg m².
         inertia: f64,
     },
+    /// A body is so light that a motion of it meets no inertia, although there is mass beyond its joint.
+    #[error(
+        "a motion of body `{body}` by joint `{joint}` meets no inertia (reduced inertia {inertia}): the body itself has a mass \
+         of {mass} kg, the joints beyond it leave it free, and closures do not count here; give the body mass and inertia \
+         about all axes, or the joint a reflected inertia"
+    )]
+    TooLightBody {
+        /// The body's name.
+        body: String,
+        /// The joint that moves it.
+        joint: String,
+        /// The body's own mass, kg.
+        mass: f64,
+        /// The reduced inertia, kg or kg m²: zero where rounding leaves none.
+        inertia: f64,
+    },
+    /// 0 < w < ∞ is violated by the rate below which friction is smooth.
+    #[error("the slip rate is {slip_rate}; it must satisfy 0 < x < ∞")]
+    InvalidSlipRate {
+        /// The rate, rad/s and m/s.
+        slip_rate: f64,
+    },
     /// |q| = 1 is violated by a quaternion of the configuration.
     #[error("the quaternion of joint `{joint}` has length {length}; it must be a unit quaternion")]
     NotUnitQuaternion {
@@ -148,12 +170,6 @@ pub enum MultibodyError {
     NoConvergence {
         /// The last correction, of the size of the coordinates.
         correction: f64,
-    },
-    /// A method that needs coordinates with q̇ = v.
-    #[error("joint `{joint}` has a quaternion; this method needs joints with one coordinate a freedom")]
-    NeedsPlainCoordinates {
-        /// The joint's name.
-        joint: String,
     },
     /// A condition of linear algebra.
     #[error(transparent)]

@@ -19,6 +19,7 @@ mod forward_dynamics;
 mod group;
 mod inverse_dynamics;
 mod jacobian;
+mod joint_forces;
 mod kinematics;
 mod link;
 mod loops;
@@ -47,6 +48,7 @@ pub use factorisation::TreeFactors;
 pub use files::{FileInertias, Visual, VisualShape};
 pub use group::TreeGroup;
 pub use inverse_dynamics::AppliedWrench;
+pub use joint_forces::JointPowers;
 pub use kinematics::{FrameAcceleration, FramePlace, FrameVelocity};
 pub use loops::{BodyPoint, ClosedMotion, ClosedTree, LoopClosure, LoopWorkspace};
 #[cfg(feature = "mjcf")]

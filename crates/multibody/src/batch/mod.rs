@@ -126,40 +126,39 @@ impl LaneKernel for Blocks<'_> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<const N: usize>(self) -> Option<usize> {
         let Self { tree, memory, operation, inputs, mut outputs } = self;
-        let InLanes::<N> { work, q, v, third, out } = memory.downcast_mut()?;
+        let lanes: &mut InLanes<N> = memory.downcast_mut()?;
         let [nq, n, square] =
             [tree.coordinates(), tree.freedoms(), tree.freedoms() * tree.freedoms()].map(|count| count * BLOCK);
         let mut suspect = None;
         for block in 0..outputs.iter().zip([n, square, square, square]).map(|(out, each)| out.len() / each).max()? {
             let mut lane = 0;
             while lane < BLOCK {
-                load(inputs.q, block * nq + lane, q);
-                load(inputs.v, block * n + lane, v);
-                load(inputs.third, block * n + lane, third);
+                load(inputs.q, block * nq + lane, &mut lanes.q);
+                load(inputs.v, block * n + lane, &mut lanes.v);
+                load(inputs.third, block * n + lane, &mut lanes.third);
                 let is_right = match operation {
                     Operation::Inverse => {
+                        let InLanes { work, q, v, third, out } = &mut *lanes;
                         inverse_dynamics::pass_outwards(tree, &mut work.forces, q, v, third);
                         inverse_dynamics::pass_inwards(tree, &mut work.forces, third, &mut out.acceleration);
                         all_finite(&out.acceleration)
                     }
-                    Operation::Forward => {
+                    Operation::Forward | Operation::Derivatives => {
+                        let InLanes { work, q, v, third, out } = &mut *lanes;
                         forward_dynamics::pass_outwards(tree, &mut work.articulation, q, v);
                         let is_positive = forward_dynamics::pass_inwards(tree, work, third, &mut out.acceleration);
                         let states = &mut work.articulation;
                         forward_dynamics::pass_accelerations(tree, states, &work.gains, &mut out.acceleration);
-                        piola_numerics::Mask::all(is_positive) && all_finite(&out.acceleration)
+                        let is_right = piola_numerics::Mask::all(is_positive) && all_finite(&out.acceleration);
+                        (operation == Operation::Forward || differentiate(tree, lanes)) && is_right
                     }
-                    Operation::MassMatrix => {
-                        mass_matrix::fill(tree, work, q, &mut out.by_tau);
-                        all_finite(q) && all_finite(&out.by_tau)
-                    }
-                    Operation::Derivatives => derivatives::differentiate_accelerations(tree, work, q, v, third, out),
+                    Operation::MassMatrix => mass_matrix_of(tree, lanes),
                 };
-                let written = [&out.acceleration, &out.by_q, &out.by_v, &out.by_tau];
+                let written = [&lanes.out.acceleration, &lanes.out.by_q, &lanes.out.by_v, &lanes.out.by_tau];
                 for ((to, from), each) in outputs.iter_mut().zip(written).zip([n, square, square, square]) {
                     store(from, to, block * each + lane);
                 }
-                if !(is_right && tree.has_unit_quaternions(q)) && suspect.is_none() {
+                if !(is_right && tree.has_unit_quaternions(&lanes.q)) && suspect.is_none() {
                     suspect = Some(block * BLOCK + lane);
                 }
                 lane += N;
@@ -189,6 +188,47 @@ fn store<const N: usize>(values: &[Lanes<f64, N>], blocks: &mut [f64], from: usi
     for (k, lanes) in values.iter().enumerate() {
         lanes.store(&mut blocks[from + k * BLOCK..from + k * BLOCK + N]);
     }
+}
+
+/// The mass matrix in lanes: a kernel of its own, which the compiler takes apart from the others.
+struct MassMatrixInLanes<'a> {
+    tree: &'a RigidTree,
+    memory: &'a mut (dyn Any + Send),
+}
+
+impl LaneKernel for MassMatrixInLanes<'_> {
+    type Output = bool;
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run<const N: usize>(self) -> bool {
+        let Some(InLanes::<N> { work, q, out, .. }) = self.memory.downcast_mut() else { return false };
+        mass_matrix::fill(self.tree, work, q, &mut out.by_tau);
+        all_finite(q) && all_finite(&out.by_tau)
+    }
+}
+
+#[inline(never)]
+fn mass_matrix_of(tree: &RigidTree, memory: &mut (dyn Any + Send)) -> bool {
+    dispatch_lanes::<_, BASE, AVX2, AVX512>(MassMatrixInLanes { tree, memory })
+}
+
+/// The derivatives of accelerations that are there, in lanes.
+struct DerivativesInLanes<'a> {
+    tree: &'a RigidTree,
+    memory: &'a mut (dyn Any + Send),
+}
+
+impl LaneKernel for DerivativesInLanes<'_> {
+    type Output = bool;
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run<const N: usize>(self) -> bool {
+        let Some(InLanes::<N> { work, v, out, .. }) = self.memory.downcast_mut() else { return false };
+        derivatives::differentiate_accelerations(self.tree, work, v, out)
+    }
+}
+
+#[inline(never)]
+fn differentiate(tree: &RigidTree, memory: &mut (dyn Any + Send)) -> bool {
+    dispatch_lanes::<_, BASE, AVX2, AVX512>(DerivativesInLanes { tree, memory })
 }
 
 /// Memory for the matrices of an operation, where it is not there yet.

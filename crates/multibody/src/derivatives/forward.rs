@@ -124,25 +124,24 @@ impl<T: Real> Kernel for Derivatives<'_, T> {
     type Output = bool;
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> bool {
-        differentiate_accelerations(self.tree, self.work, self.q, self.v, self.tau, self.out)
+        let Self { tree, work, q, v, tau, out } = self;
+        pass_outwards(tree, &mut work.articulation, q, v);
+        let is_positive = pass_inwards(tree, work, tau, &mut out.acceleration);
+        pass_accelerations(tree, &mut work.articulation, &work.gains, &mut out.acceleration);
+        differentiate_accelerations(tree, work, v, out) && is_positive.all()
     }
 }
 
-/// The accelerations and their derivatives without checks; true where all reduced inertias are positive and all is finite.
+/// The derivatives of accelerations that are there, with the articulated inertias of forward dynamics; true where all is finite.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn differentiate_accelerations<T: Real>(
     tree: &RigidTree,
     work: &mut TreeWorkspace<T>,
-    q: &[T],
     v: &[T],
-    tau: &[T],
     out: &mut AccelerationDerivatives<T>,
 ) -> bool {
     let n = tree.freedoms;
     let AccelerationDerivatives { acceleration, by_q, by_v, by_tau } = out;
-    pass_outwards(tree, &mut work.articulation, q, v);
-    let is_positive = pass_inwards(tree, work, tau, acceleration);
-    pass_accelerations(tree, &mut work.articulation, &work.gains, acceleration);
     let TreeWorkspace { articulation, space, .. } = &mut *work;
     for (i, link) in tree.links.iter().enumerate() {
         for_kind!(link.kind, place::<T>(link, &articulation[i + 1], i + 1, space));
@@ -154,5 +153,5 @@ pub(crate) fn differentiate_accelerations<T: Real>(
     }
     gains_in_space(tree, work);
     solve_columns(tree, work, &mut [&mut by_q[..], &mut by_v[..], &mut by_tau[..]], &[-1.0, -1.0, 1.0], n);
-    is_positive.all() && all_finite(by_q) && all_finite(by_v) && all_finite(by_tau)
+    all_finite(by_q) && all_finite(by_v) && all_finite(by_tau)
 }

@@ -5,6 +5,7 @@ mod batch;
 mod derivatives;
 mod digits;
 mod golden;
+mod joint_forces;
 mod laws;
 mod loops;
 mod mechanisms;

@@ -50,6 +50,21 @@ fn models_move_and_weigh_as_in_mujoco() {
     assert_eq!(compared, 3 * (5 + 5));
 }
 
+/// Coulomb friction is a condition of `MuJoCo`'s solver, not one of its forces: the file is read without it.
+#[test]
+fn springs_and_dampers_act_as_in_mujoco() {
+    let [(_, limbs), (_, linkage)] = models();
+    for (text, expected) in [(LIMBS.replace("frictionloss=\"0.2\"", ""), limbs), (LINKAGE.to_owned(), linkage)] {
+        let tree = Mjcf::parse(&text, MjcfOptions::default()).unwrap().tree;
+        let mut out = vec![0.0; tree.freedoms()];
+        for state in expected["states"].as_array().unwrap() {
+            let [q, v] = ["q", "v"].map(|key| golden::vector(&state[key]));
+            tree.joint_forces(&q, &v, 0.1, &mut out).unwrap();
+            assert_close("forces", &out, &golden::vector(&state["springs_and_dampers"]), ROUNDING);
+        }
+    }
+}
+
 /// G v̇ = 0 from rest, with the rows G of `MuJoCo`'s equalities.
 #[test]
 fn equalities_are_closures_with_the_rows_of_mujoco() {
