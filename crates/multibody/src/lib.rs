@@ -20,6 +20,7 @@ mod group;
 mod inverse_dynamics;
 mod jacobian;
 mod joint_forces;
+mod kept;
 mod kinematics;
 mod link;
 mod loops;
@@ -44,11 +45,14 @@ pub use batch::{BatchWorkspace, DerivativeBlocks, StateBlocks};
 pub use derivatives::AccelerationDerivatives;
 pub use error::{FileFault, MultibodyError};
 pub use factorisation::TreeFactors;
+#[cfg(all(feature = "urdf", feature = "mjcf"))]
+pub use files::RobotFile;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 pub use files::{FileInertias, Visual, VisualShape};
 pub use group::TreeGroup;
 pub use inverse_dynamics::AppliedWrench;
 pub use joint_forces::JointPowers;
+pub use kept::{KeptMassMatrix, UpdateCounts};
 pub use kinematics::{FrameAcceleration, FramePlace, FrameVelocity};
 pub use loops::{BodyPoint, ClosedMotion, ClosedTree, LoopClosure, LoopWorkspace};
 #[cfg(feature = "mjcf")]
@@ -58,7 +62,9 @@ pub use motion::TreeMotion;
 pub use piola_kinematics::SingularPosition;
 pub use reactions::JointReaction;
 pub use regressor::INERTIAL_PARAMETERS;
-pub use tree::{BodyIndex, BodyInertia, FrameIndex, JointKind, JointPlace, RigidTree, RigidTreeBuilder, TreeJoint};
+pub use tree::{
+    BodyIndex, BodyInertia, FrameIndex, JointKind, JointPlace, RigidTree, RigidTreeBuilder, TreeJoint, TreePlan,
+};
 #[cfg(feature = "urdf")]
 pub use urdf::{Mimic, Urdf, UrdfBase, UrdfOptions};
 pub use variational::VariationalTree;

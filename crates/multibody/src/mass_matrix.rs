@@ -19,7 +19,7 @@ use crate::space::{Runs, SUBSPACE, add_symmetric, pass_subspaces, reference};
 use crate::spatial::{add, cross, lit, lit_symmetric, scaled, skew, sub, times, translated_inertia};
 use crate::tree::RigidTree;
 use crate::turn::Turning;
-use crate::workspace::{Composite, LinkForces, LinkInSpace, Rows, TreeWorkspace};
+use crate::workspace::{Composite, FOUR, LinkForces, LinkInSpace, Rows, TreeWorkspace};
 
 impl RigidTree {
     /// The mass matrix M(q): kinetic energy ½ vᵀ M v, reflected inertias on the diagonal included.
@@ -97,13 +97,14 @@ pub(crate) fn fill<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace<T>, q: &[
     }
     let reference = reference(space);
     for (i, link) in tree.links.iter().enumerate().rev() {
-        for_kind!(link.kind, column::<T>(tree, link, i + 1, forces, space, composite, reference, rows, out));
+        for_kind!(link.kind, column::<T>(tree, link, i + 1, i + 1, space, composite, reference, rows, out));
+        for_kind!(link.kind, add_to_parent::<T>(link, i + 1, forces, composite));
     }
 }
 
 /// Places a link in space and keeps its turn.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn place<T: Real, E: Elementary<T, N>, const N: usize>(
+pub(crate) fn place<T: Real, E: Elementary<T, N>, const N: usize>(
     link: &Link,
     state: usize,
     q: &[T],
@@ -119,15 +120,17 @@ fn place<T: Real, E: Elementary<T, N>, const N: usize>(
     space[state].origin = place;
 }
 
+/// The columns of a link, and their rows: the entries of the freedoms from the link `from`, which is this one or nearer to the
+/// ground.
 #[cfg_attr(not(debug_assertions), inline(always))]
 #[expect(clippy::too_many_arguments, reason = "the parts of a workspace")]
-fn column<T: Real, E: Elementary<T, N>, const N: usize>(
+pub(crate) fn column<T: Real, E: Elementary<T, N>, const N: usize>(
     tree: &RigidTree,
     link: &Link,
     state: usize,
-    forces: &[LinkForces<T>],
+    from: usize,
     space: &[LinkInSpace<T>],
-    composite: &mut [Composite<T>],
+    composite: &[Composite<T>],
     reference: [T; 3],
     rows: &Rows<T>,
     out: &mut [T],
@@ -146,19 +149,33 @@ fn column<T: Real, E: Elementary<T, N>, const N: usize>(
         let moment = add(times(here.axes, columns[k].0), cross(arm, force));
         let j = link.v + k;
         // Freedoms of the same joint beyond this one are left to their own columns.
-        for (first, end) in Runs::of(tree, state) {
+        for (first, end) in Runs::of(tree, from) {
             let end = end.min(j + 1);
             let column = &mut out[j * n + first..j * n + end];
             dots(rows, SUBSPACE, first, moment, force, column);
         }
-        out[j * n + j] += T::lit(tree.armature[j]);
-        for (first, end) in Runs::of(tree, state) {
-            for i in first..end.min(j) {
-                out[i * n + j] = out[j * n + i];
+        if from == state {
+            out[j * n + j] += T::lit(tree.armature[j]);
+        }
+        let (before, own) = out.split_at_mut(j * n);
+        for (first, end) in Runs::of(tree, from) {
+            let end = end.min(j);
+            if first < end {
+                put_row(&mut before[first * n + j..], n, &own[first..end]);
             }
         }
         k += 1;
     }
+}
+
+/// Adds the composite inertia of a link to its parent's.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn add_to_parent<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    state: usize,
+    forces: &[LinkForces<T>],
+    composite: &mut [Composite<T>],
+) {
     if link.parent != 0 {
         let (turn, origin) = (E::Turn::recall(&forces[state].turn), forces[state].origin);
         let own = &composite[state];
@@ -172,15 +189,72 @@ fn column<T: Real, E: Elementary<T, N>, const N: usize>(
     }
 }
 
+/// Writes values at every n-th place.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn put_row<T: Real>(out: &mut [T], n: usize, values: &[T]) {
+    for (out, &value) in out.iter_mut().step_by(n).zip(values) {
+        *out = value;
+    }
+}
+
+/// Rows of numbers from one on, in groups of W; all have as many groups.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn groups<T: Real, const W: usize>(rows: &Rows<T>, row: usize, first: usize, count: usize) -> &[[T; W]] {
+    rows.row(row)[first..first + count * W].as_chunks().0
+}
+
+/// Writes the group of an index, as much of it as there is room for.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn put_group<T: Real, const W: usize>(out: &mut [T], index: usize, group: &[T; W]) {
+    let (whole, rest) = out.as_chunks_mut::<W>();
+    if let Some(out) = whole.get_mut(index) {
+        *out = *group;
+        return;
+    }
+    for (out, &value) in rest.iter_mut().zip(group) {
+        *out = value;
+    }
+}
+
 /// Writes the products of the freedoms' vectors from `first` with (moment, force).
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn dots<T: Real>(rows: &Rows<T>, row: usize, first: usize, moment: [T; 3], force: [T; 3], out: &mut [T]) {
-    let count = out.len();
-    let of = |k: usize| &rows.row(row + k)[first..first + count];
-    let (x, y, z) = (of(0), of(1), of(2));
-    let (u, v, w) = (of(3), of(4), of(5));
+    // Lanes have their own width.
+    if T::LANES == 1 {
+        dots_in_groups::<T, FOUR>(rows, row, first, moment, force, out);
+    } else {
+        dots_in_groups::<T, 1>(rows, row, first, moment, force, out);
+    }
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn dots_in_groups<T: Real, const W: usize>(
+    rows: &Rows<T>,
+    row: usize,
+    first: usize,
+    moment: [T; 3],
+    force: [T; 3],
+    out: &mut [T],
+) {
+    let count = out.len().div_ceil(W);
+    let (x, y, z) = (
+        groups::<T, W>(rows, row, first, count),
+        groups::<T, W>(rows, row + 1, first, count),
+        groups::<T, W>(rows, row + 2, first, count),
+    );
+    let (u, v, w) = (
+        groups::<T, W>(rows, row + 3, first, count),
+        groups::<T, W>(rows, row + 4, first, count),
+        groups::<T, W>(rows, row + 5, first, count),
+    );
     for i in 0..count {
-        out[i] = (x[i] * moment[0] + y[i] * moment[1] + z[i] * moment[2])
-            + (u[i] * force[0] + v[i] * force[1] + w[i] * force[2]);
+        let mut sum = [T::zero(); W];
+        let mut k = 0;
+        while k < W {
+            sum[k] = (x[i][k] * moment[0] + y[i][k] * moment[1] + z[i][k] * moment[2])
+                + (u[i][k] * force[0] + v[i][k] * force[1] + w[i][k] * force[2]);
+            k += 1;
+        }
+        put_group(out, i, &sum);
     }
 }

@@ -76,8 +76,10 @@ pub(crate) struct Rows<T> {
 }
 
 impl<T: Real> Rows<T> {
+    /// Rows are longer than there are freedoms, so that the last ones can be read in fours.
     fn new(rows: usize, freedoms: usize) -> Self {
-        Self { rows: vec![T::zero(); rows * freedoms], stride: freedoms }
+        let stride = freedoms + FOUR - 1;
+        Self { rows: vec![T::zero(); rows * stride], stride }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn row(&self, row: usize) -> &[T] {
@@ -133,7 +135,15 @@ pub struct TreeWorkspace<T> {
     /// Several columns for each freedom.
     pub(crate) column_values: Vec<[T; COLUMNS]>,
     pub(crate) column_vectors: Vec<ColumnVectors<T>>,
+    /// M⁻¹ with columns of a length that fours divide, for trees so small that products with it are the fastest.
+    pub(crate) dense: Vec<T>,
 }
+
+/// Freedoms up to which M⁻¹ multiplies columns: beyond, solves along the tree are faster.
+pub(crate) const DENSE: usize = 24;
+
+/// Freedoms that are read at once.
+pub(crate) const FOUR: usize = 4;
 
 /// Columns that are solved at once.
 pub(crate) const COLUMNS: usize = 8;
@@ -203,6 +213,7 @@ impl RigidTree {
             column_states: vec![[[T::zero(); COLUMNS]; 6]; states],
             column_values: vec![[T::zero(); COLUMNS]; n],
             column_vectors: vec![ColumnVectors { subspace: symmetric, gain: symmetric }; n],
+            dense: if n <= DENSE { vec![T::zero(); n * n.next_multiple_of(FOUR)] } else { Vec::new() },
         }
     }
 

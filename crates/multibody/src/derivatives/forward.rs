@@ -4,7 +4,8 @@
 //! ∂v̇/∂q = −M⁻¹ ∂τ/∂q        ∂v̇/∂v = −M⁻¹ ∂τ/∂v        ∂v̇/∂τ = M⁻¹        ∂τ of inverse dynamics at v̇
 //! ```
 //!
-//! Each column is solved along the tree by the articulated inertias of the forward dynamics.
+//! Each column is solved along the tree by the articulated inertias of the forward dynamics. Up to 24 freedoms M⁻¹ alone is found
+//! so, and multiplies the other columns.
 
 use piola_numerics::{Kernel, Mask, Real, dispatch};
 
@@ -14,10 +15,11 @@ use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_length};
 use crate::forward_dynamics::{pass_accelerations, pass_inwards, pass_outwards};
 use crate::link::{Elementary, Link};
+use crate::mass_matrix::put_group;
 use crate::spatial::{add, times};
 use crate::tree::RigidTree;
 use crate::turn::Turning;
-use crate::workspace::{LinkArticulation, LinkInSpace, TreeWorkspace};
+use crate::workspace::{DENSE, FOUR, LinkArticulation, LinkInSpace, TreeWorkspace};
 
 /// What [`RigidTree::forward_dynamics_derivatives`] writes: v̇ and its derivatives.
 ///
@@ -152,6 +154,43 @@ pub(crate) fn differentiate_accelerations<T: Real>(
         by_tau[j * n + j] = T::one();
     }
     gains_in_space(tree, work);
-    solve_columns(tree, work, &mut [&mut by_q[..], &mut by_v[..], &mut by_tau[..]], &[-1.0, -1.0, 1.0], n);
+    if n <= DENSE {
+        solve_columns(tree, work, &mut [&mut by_tau[..]], &[1.0], n);
+        multiply_columns(work, by_tau, [by_q, by_v], n);
+    } else {
+        solve_columns(tree, work, &mut [&mut by_q[..], &mut by_v[..], &mut by_tau[..]], &[-1.0, -1.0, 1.0], n);
+    }
     all_finite(by_q) && all_finite(by_v) && all_finite(by_tau)
+}
+
+/// Replaces the columns b of matrices by −M⁻¹ b, where M⁻¹ is there.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn multiply_columns<T: Real>(work: &mut TreeWorkspace<T>, inverse: &[T], matrices: [&mut [T]; 2], n: usize) {
+    if n == 0 {
+        return;
+    }
+    let TreeWorkspace { dense, column, .. } = work;
+    let stride = n.next_multiple_of(FOUR);
+    for (to, from) in dense.chunks_exact_mut(stride).zip(inverse.chunks_exact(n)) {
+        for (to, &from) in to.iter_mut().zip(from) {
+            *to = -from;
+        }
+    }
+    for matrix in matrices {
+        for b in matrix.chunks_exact_mut(n) {
+            column[..n].copy_from_slice(b);
+            for group in 0..stride / FOUR {
+                let mut sum = [T::zero(); FOUR];
+                for (of_inverse, &value) in dense.chunks_exact(stride).zip(&column[..n]) {
+                    let of_inverse = &of_inverse.as_chunks::<FOUR>().0[group];
+                    let mut k = 0;
+                    while k < FOUR {
+                        sum[k] += of_inverse[k] * value;
+                        k += 1;
+                    }
+                }
+                put_group(b, group, &sum);
+            }
+        }
+    }
 }

@@ -1,7 +1,11 @@
 //! What the readers of robots' files share: text, elements and numbers with their lines, inertias, pictures.
 
+#[cfg(all(feature = "urdf", feature = "mjcf"))]
+mod robot;
 mod visual;
 
+#[cfg(all(feature = "urdf", feature = "mjcf"))]
+pub use robot::RobotFile;
 pub use visual::{Visual, VisualShape};
 
 use std::io::Read as _;

@@ -6,6 +6,7 @@ mod derivatives;
 mod digits;
 mod golden;
 mod joint_forces;
+mod kept;
 mod laws;
 mod loops;
 mod mechanisms;

@@ -130,6 +130,31 @@ fn four_bar_starts_closed_and_stays_closed() {
     assert!(found.singular_positions.is_empty());
 }
 
+/// An MJCF file: its ball joint, its spring at rest where the elbow starts, its gear and its placement.
+#[test]
+fn arm_of_an_mjcf_file_starts_where_the_file_places_it_and_keeps_its_gear() {
+    let study = load("swing-arm.toml", &["output.samples=40", "time.end=1"]);
+    let plan = StudyPlan::of(&study).to_string();
+    for words in ["5 freedoms from swing-arm.xml", "1 condition, by multipliers", "are about a coordinate axis"] {
+        assert!(plan.contains(words), "{words} in {plan}");
+    }
+    let run = run(&study);
+    let found = motion(&run);
+    let bent = 20.0_f64.to_radians();
+    assert_close("start", &found.samples[0].q, &[1.0, 0.0, 0.0, 0.0, bent, 0.0], Tol::ulps(64.0));
+    let tol = Tol::stated(1e-7, "interpolation within steps of a tolerance of 1e-9");
+    for sample in &found.samples {
+        let gear = sample.q[5] + 0.5 * (sample.q[4] - bent);
+        assert_close_at_scale("gear", &[gear], &[0.0], 1.0, tol);
+    }
+    let last = found.samples.last().unwrap();
+    assert!((last.q[4] - bent).abs() > 0.01 && last.work < -1e-4);
+    assert_close_at_scale("balance", &[found.energy_error], &[0.0], 1.0, Tol::stated(1e-6, "steps of 1e-9"));
+    assert!(
+        mistake("swing-arm.toml", &["robot.base=free"]).contains("a free base besides the free joints of the file")
+    );
+}
+
 #[test]
 fn six_joint_arm_is_planned_and_its_locked_joint_stays() {
     let study = load("six-joint-arm.toml", &["output.samples=50"]);
@@ -297,7 +322,7 @@ fn plan_tells_how_far_closures_move_the_start() {
 #[test]
 fn mistakes_of_robots_are_named_with_their_place_and_what_is_valid() {
     let cases: [(&str, &[&str], &[&str]); 11] = [
-        ("two-link-arm.toml", &["robot.file=data/none.urdf"], &["none.urdf", "a URDF file"]),
+        ("two-link-arm.toml", &["robot.file=data/none.urdf"], &["none.urdf", "a URDF or MJCF file"]),
         ("two-link-arm.toml", &["robot.file=data/double-pendulum.csv"], &["line 1"]),
         ("two-link-arm.toml", &["drive.elbow.displacement=1"], &["`displacement` of the joint `elbow`", "angle, rate"]),
         ("six-joint-arm.toml", &["drive.elbow.angle=4"], &["starts at 4, outside its limits", "from -3.14"]),
