@@ -172,17 +172,30 @@ fn six_joint_arm_is_planned_and_its_locked_joint_stays() {
     }
 }
 
+/// The arm on a wall that is free: without a mass of its own the wall could turn about the hinge alone, and is named.
 #[test]
 fn free_root_falls_as_a_stone() {
     let settings = ["robot.base=free", "robot.velocity=[1, 0, 2] m/s", "time.end=1", "integrator.tolerance=1e-12"];
-    let study = load("two-link-arm.toml", &[&settings[..], &["drive.elbow.angle=0"]].concat());
+    let settings = [&settings[..], &["drive.elbow.angle=0"]].concat();
+    let light = studies::run(&load("two-link-arm.toml", &settings), |_| ControlFlow::Continue(()));
+    let Outcome::Failed(reason) = light.outcome else { panic!("a wall without mass") };
+    assert!(reason.contains("a motion of body `wall` by joint `ground to wall` meets no inertia"), "{reason}");
+    let folder = folder("stone");
+    let inertial = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>";
+    let heavy = format!("<link name=\"wall\">{inertial}</link>");
+    let text = |name: &str| std::fs::read_to_string(scene(name)).unwrap();
+    let robot = text("data/two-link-arm.urdf").replace("<link name=\"wall\"/>", &heavy);
+    std::fs::write(folder.join("arm.urdf"), robot).unwrap();
+    let of_stone = text("two-link-arm.toml").replace("data/two-link-arm.urdf", "arm.urdf");
+    std::fs::write(folder.join("stone.toml"), of_stone).unwrap();
+    let settings: Vec<String> = settings.iter().map(ToString::to_string).collect();
+    let Ok(SceneFile::Study(study)) = SceneFile::load(&folder.join("stone.toml"), &settings) else { panic!("a study") };
     let run = run(&study);
     let last = motion(&run).samples.last().unwrap();
     let tol = Tol::stated(1e-9, "steps of a tolerance of 1e-12");
     assert_close("position", &last.q[4..7], &[1.0, 0.0, 2.0 - 0.5 * 9.81], tol);
 }
 
-/// An empty folder for the files of a test.
 fn folder(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("piola-{name}-{}", std::process::id()));
     let _ = std::fs::remove_dir_all(&folder);
