@@ -19,7 +19,7 @@ use crate::space::{Runs, SUBSPACE, add_symmetric, pass_subspaces, reference};
 use crate::spatial::{add, cross, lit, lit_symmetric, scaled, skew, sub, times, translated_inertia};
 use crate::tree::RigidTree;
 use crate::turn::Turning;
-use crate::workspace::{Composite, FOUR, LinkForces, LinkInSpace, Rows, TreeWorkspace};
+use crate::workspace::{Composite, LinkForces, LinkInSpace, Rows, TreeWorkspace};
 
 impl RigidTree {
     /// The mass matrix M(q): kinetic energy ½ vᵀ M v, reflected inertias on the diagonal included.
@@ -157,11 +157,9 @@ pub(crate) fn column<T: Real, E: Elementary<T, N>, const N: usize>(
         if from == state {
             out[j * n + j] += T::lit(tree.armature[j]);
         }
-        let (before, own) = out.split_at_mut(j * n);
         for (first, end) in Runs::of(tree, from) {
-            let end = end.min(j);
-            if first < end {
-                put_row(&mut before[first * n + j..], n, &own[first..end]);
+            for i in first..end.min(j) {
+                out[i * n + j] = out[j * n + i];
             }
         }
         k += 1;
@@ -189,72 +187,15 @@ pub(crate) fn add_to_parent<T: Real, E: Elementary<T, N>, const N: usize>(
     }
 }
 
-/// Writes values at every n-th place.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn put_row<T: Real>(out: &mut [T], n: usize, values: &[T]) {
-    for (out, &value) in out.iter_mut().step_by(n).zip(values) {
-        *out = value;
-    }
-}
-
-/// Rows of numbers from one on, in groups of W; all have as many groups.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn groups<T: Real, const W: usize>(rows: &Rows<T>, row: usize, first: usize, count: usize) -> &[[T; W]] {
-    rows.row(row)[first..first + count * W].as_chunks().0
-}
-
-/// Writes the group of an index, as much of it as there is room for.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn put_group<T: Real, const W: usize>(out: &mut [T], index: usize, group: &[T; W]) {
-    let (whole, rest) = out.as_chunks_mut::<W>();
-    if let Some(out) = whole.get_mut(index) {
-        *out = *group;
-        return;
-    }
-    for (out, &value) in rest.iter_mut().zip(group) {
-        *out = value;
-    }
-}
-
 /// Writes the products of the freedoms' vectors from `first` with (moment, force).
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn dots<T: Real>(rows: &Rows<T>, row: usize, first: usize, moment: [T; 3], force: [T; 3], out: &mut [T]) {
-    // Lanes have their own width.
-    if T::LANES == 1 {
-        dots_in_groups::<T, FOUR>(rows, row, first, moment, force, out);
-    } else {
-        dots_in_groups::<T, 1>(rows, row, first, moment, force, out);
-    }
-}
-
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn dots_in_groups<T: Real, const W: usize>(
-    rows: &Rows<T>,
-    row: usize,
-    first: usize,
-    moment: [T; 3],
-    force: [T; 3],
-    out: &mut [T],
-) {
-    let count = out.len().div_ceil(W);
-    let (x, y, z) = (
-        groups::<T, W>(rows, row, first, count),
-        groups::<T, W>(rows, row + 1, first, count),
-        groups::<T, W>(rows, row + 2, first, count),
-    );
-    let (u, v, w) = (
-        groups::<T, W>(rows, row + 3, first, count),
-        groups::<T, W>(rows, row + 4, first, count),
-        groups::<T, W>(rows, row + 5, first, count),
-    );
+    let count = out.len();
+    let of = |k: usize| &rows.row(row + k)[first..first + count];
+    let (x, y, z) = (of(0), of(1), of(2));
+    let (u, v, w) = (of(3), of(4), of(5));
     for i in 0..count {
-        let mut sum = [T::zero(); W];
-        let mut k = 0;
-        while k < W {
-            sum[k] = (x[i][k] * moment[0] + y[i][k] * moment[1] + z[i][k] * moment[2])
-                + (u[i][k] * force[0] + v[i][k] * force[1] + w[i][k] * force[2]);
-            k += 1;
-        }
-        put_group(out, i, &sum);
+        out[i] = (x[i] * moment[0] + y[i] * moment[1] + z[i] * moment[2])
+            + (u[i] * force[0] + v[i] * force[1] + w[i] * force[2]);
     }
 }

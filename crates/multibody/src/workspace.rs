@@ -76,10 +76,8 @@ pub(crate) struct Rows<T> {
 }
 
 impl<T: Real> Rows<T> {
-    /// Rows are longer than there are freedoms, so that the last ones can be read in fours.
     fn new(rows: usize, freedoms: usize) -> Self {
-        let stride = freedoms + FOUR - 1;
-        Self { rows: vec![T::zero(); rows * stride], stride }
+        Self { rows: vec![T::zero(); rows * freedoms], stride: freedoms }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn row(&self, row: usize) -> &[T] {
@@ -140,9 +138,9 @@ pub struct TreeWorkspace<T> {
 }
 
 /// Freedoms up to which M⁻¹ multiplies columns: beyond, solves along the tree are faster.
-pub(crate) const DENSE: usize = 24;
+pub(crate) const DENSE: usize = 12;
 
-/// Freedoms that are read at once.
+/// Rows of a product that are summed at once.
 pub(crate) const FOUR: usize = 4;
 
 /// Columns that are solved at once.

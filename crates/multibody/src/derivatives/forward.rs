@@ -4,7 +4,7 @@
 //! ∂v̇/∂q = −M⁻¹ ∂τ/∂q        ∂v̇/∂v = −M⁻¹ ∂τ/∂v        ∂v̇/∂τ = M⁻¹        ∂τ of inverse dynamics at v̇
 //! ```
 //!
-//! Each column is solved along the tree by the articulated inertias of the forward dynamics. Up to 24 freedoms M⁻¹ alone is found
+//! Each column is solved along the tree by the articulated inertias of the forward dynamics. Up to 12 freedoms M⁻¹ alone is found
 //! so, and multiplies the other columns.
 
 use piola_numerics::{Kernel, Mask, Real, dispatch};
@@ -15,7 +15,6 @@ use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_length};
 use crate::forward_dynamics::{pass_accelerations, pass_inwards, pass_outwards};
 use crate::link::{Elementary, Link};
-use crate::mass_matrix::put_group;
 use crate::spatial::{add, times};
 use crate::tree::RigidTree;
 use crate::turn::Turning;
@@ -192,5 +191,13 @@ fn multiply_columns<T: Real>(work: &mut TreeWorkspace<T>, inverse: &[T], matrice
                 put_group(b, group, &sum);
             }
         }
+    }
+}
+
+/// Writes four rows of a product, as many of them as there are.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn put_group<T: Real>(out: &mut [T], group: usize, values: &[T; FOUR]) {
+    for (out, &value) in out[group * FOUR..].iter_mut().zip(values) {
+        *out = value;
     }
 }

@@ -20,14 +20,14 @@ use crate::coriolis::{add_velocity_product, by_velocity, by_velocity_transposed,
 use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_length};
 use crate::link::{Elementary, Link, Pair};
-use crate::mass_matrix::{dots, groups, put_group, put_row};
+use crate::mass_matrix::dots;
 use crate::space::{
     BOTH_RATES, RATE, Runs, SECOND_RATE, SUBSPACE, add_pairs, force_cross, motion_cross, own_inertia, pass_places,
     put_pair, reference, row_pair,
 };
 use crate::spatial::{Vector, add, cross, lit, scaled, sub};
 use crate::tree::RigidTree;
-use crate::workspace::{Composite, FOUR, LinkInSpace, Rows, TreeWorkspace};
+use crate::workspace::{Composite, LinkInSpace, Rows, TreeWorkspace};
 
 impl RigidTree {
     /// The derivatives of [`inverse_dynamics`](Self::inverse_dynamics): ∂τ/∂q on the tangent space, ∂τ/∂v, ∂τ/∂v̇ = M.
@@ -139,11 +139,15 @@ pub(super) fn differentiate<T: Real>(
                 if first < before {
                     dots(rows, SUBSPACE, first, of.third.0, of.third.1, &mut by_q[j * n + first..j * n + before]);
                     across(rows, first, &of, &mut column[first..before], false);
-                    put_row(&mut by_v[first * n + j..], n, &column[first..before]);
+                    for t in first..before {
+                        by_v[t * n + j] = column[t];
+                    }
                 }
                 // Freedoms of the same joint turn with it, so that their S feels no force: S ×* f is left out.
                 across(rows, first, &of, &mut column[first..end], true);
-                put_row(&mut by_q[first * n + j..], n, &column[first..end]);
+                for t in first..end {
+                    by_q[t * n + j] = column[t];
+                }
                 if let Some(by_a) = by_a.as_deref_mut() {
                     dots(rows, SUBSPACE, first, of.first.0, of.first.1, &mut by_a[j * n + first..j * n + end]);
                     for t in first..end {
@@ -194,43 +198,17 @@ impl<T: Real> Vectors<T> {
 /// The derivatives of one τ with respect to freedoms nearer to the ground, from `first`: by q, or by v.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn across<T: Real>(rows: &Rows<T>, first: usize, of: &Vectors<T>, out: &mut [T], by_q: bool) {
-    if T::LANES == 1 {
-        across_in_groups::<T, FOUR>(rows, first, of, out, by_q);
-    } else {
-        across_in_groups::<T, 1>(rows, first, of, out, by_q);
-    }
-}
-
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn across_in_groups<T: Real, const W: usize>(rows: &Rows<T>, first: usize, of: &Vectors<T>, out: &mut [T], by_q: bool) {
+    let count = out.len();
+    let row = |k: usize| &rows.row(k)[first..first + count];
     let (with_first, with_fourth) = if by_q { (SECOND_RATE, RATE) } else { (BOTH_RATES, SUBSPACE) };
-    let count = out.len().div_ceil(W);
-    let (x, y, z) = (
-        groups::<T, W>(rows, with_first, first, count),
-        groups::<T, W>(rows, with_first + 1, first, count),
-        groups::<T, W>(rows, with_first + 2, first, count),
-    );
-    let (u, v, w) = (
-        groups::<T, W>(rows, with_first + 3, first, count),
-        groups::<T, W>(rows, with_first + 4, first, count),
-        groups::<T, W>(rows, with_first + 5, first, count),
-    );
-    let (a, b, c) = (
-        groups::<T, W>(rows, with_fourth, first, count),
-        groups::<T, W>(rows, with_fourth + 1, first, count),
-        groups::<T, W>(rows, with_fourth + 2, first, count),
-    );
+    let (x, y, z) = (row(with_first), row(with_first + 1), row(with_first + 2));
+    let (u, v, w) = (row(with_first + 3), row(with_first + 4), row(with_first + 5));
+    let (a, b, c) = (row(with_fourth), row(with_fourth + 1), row(with_fourth + 2));
     let (moment, force, fourth) = (of.first.0, of.first.1, of.fourth);
     for i in 0..count {
-        let mut sum = [T::zero(); W];
-        let mut k = 0;
-        while k < W {
-            sum[k] = (x[i][k] * moment[0] + y[i][k] * moment[1] + z[i][k] * moment[2])
-                + (u[i][k] * force[0] + v[i][k] * force[1] + w[i][k] * force[2])
-                + (a[i][k] * fourth[0] + b[i][k] * fourth[1] + c[i][k] * fourth[2]);
-            k += 1;
-        }
-        put_group(out, i, &sum);
+        out[i] = (x[i] * moment[0] + y[i] * moment[1] + z[i] * moment[2])
+            + (u[i] * force[0] + v[i] * force[1] + w[i] * force[2])
+            + (a[i] * fourth[0] + b[i] * fourth[1] + c[i] * fourth[2]);
     }
 }
 
