@@ -1,42 +1,19 @@
 //! The bodies of a file, one after the other.
 
 use super::element::{Classes, Styled};
-use super::equality::{Sites, ties};
+use super::equality::ties;
 use super::geoms::{Geom, inertial, together};
 use super::joints::series;
 use super::place::Place;
+use super::reader::{Placed, Reader, Sites, unsupported};
 use super::settings::{FromGeoms, Settings};
 use super::{Mjcf, MjcfOptions, SkippedElement};
 use crate::error::{FileFault, MultibodyError};
-use crate::files::{Element, Visual, document, elements, fault, line_of};
-use crate::tree::{BodyIndex, BodyInertia, RigidTree, RigidTreeBuilder};
+use crate::files::{Element, document, elements, fault, line_of};
+use crate::tree::{BodyIndex, BodyInertia, RigidTree};
 
 /// Sections that move nothing.
 const SECTIONS: [&str; 6] = ["size", "visual", "statistic", "custom", "sensor", "keyframe"];
-
-/// A body that was attached, and where the file places it.
-pub(super) struct Placed {
-    pub(super) name: String,
-    pub(super) index: BodyIndex,
-    /// In space, in the configuration of the file.
-    pub(super) place: Place,
-}
-
-/// What is read so far.
-pub(super) struct Reader<'a> {
-    pub(super) options: MjcfOptions,
-    pub(super) settings: Settings,
-    pub(super) classes: Classes<'a>,
-    pub(super) builder: RigidTreeBuilder,
-    /// The ground is the first.
-    pub(super) bodies: Vec<Placed>,
-    pub(super) sites: Sites,
-    home: Vec<f64>,
-    visuals: Vec<Visual>,
-    skipped: Vec<SkippedElement>,
-    /// Names and files of meshes.
-    meshes: Vec<(String, String)>,
-}
 
 /// An element of a body, in the frames around it.
 struct Part<'a> {
@@ -95,10 +72,6 @@ pub(super) fn parse(text: &str, options: MjcfOptions) -> Result<Mjcf, MultibodyE
     let tree = builder.with_gravity(gravity)?.build()?;
     let (closures, motors) = ties.on(&tree, &home)?;
     Ok(Mjcf { name, tree, home, closures, motors, visuals, skipped })
-}
-
-pub(super) fn unsupported(element: Element<'_>) -> MultibodyError {
-    fault(element, FileFault::Unsupported { element: element.tag_name().name().to_owned() })
 }
 
 impl<'a> Reader<'a> {

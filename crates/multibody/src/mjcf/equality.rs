@@ -3,25 +3,13 @@
 use piola_kinematics::Attitude;
 
 use super::FileMotor;
-use super::bodies::{Placed, Reader, unsupported};
 use super::element::Styled;
 use super::place::Place;
+use super::reader::{Placed, Reader, unsupported};
 use crate::error::{FileFault, MultibodyError};
 use crate::files::{Element, elements, fault};
 use crate::loops::{BodyPoint, LoopClosure};
-use crate::tree::{BodyIndex, FrameIndex, JointKind, JointPlace, RigidTree};
-
-/// The named sites.
-#[derive(Default)]
-pub(super) struct Sites {
-    sites: Vec<(String, BodyPoint, FrameIndex)>,
-}
-
-impl Sites {
-    pub(super) fn add(&mut self, name: &str, body: BodyIndex, frame: FrameIndex, at: [f64; 3]) {
-        self.sites.push((name.to_owned(), BodyPoint::new(body, at), frame));
-    }
-}
+use crate::tree::{FrameIndex, JointKind, JointPlace, RigidTree};
 
 type NamedClosures = Vec<(String, LoopClosure)>;
 

@@ -28,6 +28,7 @@ mod equality;
 mod geoms;
 mod joints;
 mod place;
+mod reader;
 mod settings;
 
 use std::path::Path;
