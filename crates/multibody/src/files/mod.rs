@@ -89,6 +89,7 @@ pub(crate) fn elements(of: Element<'_>) -> impl DoubleEndedIterator<Item = Eleme
     of.children().filter(Node::is_element)
 }
 
+#[cfg(feature = "urdf")]
 pub(crate) fn find<'a>(of: Element<'a>, name: &str) -> Option<Element<'a>> {
     elements(of).find(|element| element.tag_name().name() == name)
 }
@@ -98,15 +99,18 @@ pub(crate) fn missing(element: Element<'_>, what: &'static str) -> MultibodyErro
 }
 
 /// An element in another that must have it.
+#[cfg(feature = "urdf")]
 pub(crate) fn required<'a>(of: Element<'a>, name: &'static str) -> Result<Element<'a>, MultibodyError> {
     find(of, name).ok_or_else(|| missing(of, name))
 }
 
+#[cfg(feature = "urdf")]
 pub(crate) fn attribute<'a>(element: Element<'a>, name: &'static str) -> Result<&'a str, MultibodyError> {
     element.attribute(name).ok_or_else(|| missing(element, name))
 }
 
 /// A finite number, or what stands for it where it is missing.
+#[cfg(feature = "urdf")]
 pub(crate) fn number(element: Element<'_>, name: &'static str, default: Option<f64>) -> Result<f64, MultibodyError> {
     match (element.attribute(name), default) {
         (None, Some(default)) => Ok(default),
@@ -114,6 +118,7 @@ pub(crate) fn number(element: Element<'_>, name: &'static str, default: Option<f
     }
 }
 
+#[cfg(feature = "urdf")]
 pub(crate) fn vector(element: Element<'_>, name: &'static str, default: [f64; 3]) -> Result<[f64; 3], MultibodyError> {
     element.attribute(name).map_or(Ok(default), |text| numbers(element, name, text))
 }
