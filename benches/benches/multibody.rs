@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
-use piola_multibody::{AccelerationDerivatives, BatchWorkspace, RigidTree, StateBlocks};
+use piola_multibody::{AccelerationDerivatives, BatchWorkspace, DerivativeBlocks, RigidTree, StateBlocks};
 
 #[path = "../../crates/multibody/tests/it/trees.rs"]
 #[expect(dead_code, reason = "the tests need more trees")]
@@ -92,6 +92,24 @@ fn batch(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, tree: &RigidTree)
         bencher.iter(|| {
             let _ = black_box(tree.forward_dynamics_of_states(&mut work, black_box(&q), &v, &a, &mut out));
             black_box(&mut out);
+        });
+    });
+    if 100 < n {
+        return; // their matrices leave the caches
+    }
+    group.throughput(Throughput::Elements(STATES as u64));
+    let (mut matrices, mut derivatives) = (StateBlocks::new(n * n, STATES), DerivativeBlocks::new(tree, STATES));
+    group.bench_function(format!("mass_matrix/{name}/lanes"), |bencher| {
+        bencher.iter(|| {
+            let _ = black_box(tree.mass_matrix_of_states(&mut work, black_box(&q), &mut matrices));
+            black_box(&mut matrices);
+        });
+    });
+    group.bench_function(format!("forward_dynamics_derivatives/{name}/lanes"), |bencher| {
+        bencher.iter(|| {
+            let q = black_box(&q);
+            let _ = black_box(tree.forward_dynamics_derivatives_of_states(&mut work, q, &v, &a, &mut derivatives));
+            black_box(&mut derivatives);
         });
     });
 }

@@ -5,12 +5,12 @@
 //! ```
 #![expect(clippy::print_stdout, reason = "it prints the torques")]
 
-use piola_multibody::{Urdf, UrdfInertias, UrdfOptions};
+use piola_multibody::{FileInertias, Urdf, UrdfOptions};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let default = concat!(env!("CARGO_MANIFEST_DIR"), "/../../testdata/golden/ur5.urdf");
     let path = std::env::args().nth(1).unwrap_or_else(|| default.to_owned());
-    let options = UrdfOptions { inertias: UrdfInertias::AsGiven, ..UrdfOptions::default() };
+    let options = UrdfOptions { inertias: FileInertias::AsGiven, ..UrdfOptions::default() };
     let robot = Urdf::read(path.as_ref(), options)?;
     let mut q = vec![0.0; robot.tree.coordinates()];
     robot.tree.neutral_configuration(&mut q)?;

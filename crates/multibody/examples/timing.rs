@@ -5,14 +5,16 @@
 //! ```
 //!
 //! The least time of thirty measurements. Inverse and forward dynamics: nanoseconds a joint, single and in lanes (64 states).
-//! Mass matrix and derivatives: nanoseconds a state.
+//! Mass matrix and derivatives: nanoseconds a state, in lanes too.
 #![expect(clippy::print_stdout, reason = "it prints its table")]
 
 use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
 
-use piola_multibody::{AccelerationDerivatives, BatchWorkspace, MultibodyError, RigidTree, StateBlocks};
+use piola_multibody::{
+    AccelerationDerivatives, BatchWorkspace, DerivativeBlocks, MultibodyError, RigidTree, StateBlocks,
+};
 
 #[path = "../tests/it/trees.rs"]
 #[expect(dead_code, reason = "the tests need more trees")]
@@ -63,15 +65,35 @@ fn row(name: &str, tree: &RigidTree) -> Result<[f64; 2], MultibodyError> {
     let forward_lanes = least(|| {
         tree.forward_dynamics_of_states(&mut batch, black_box(&states), &states, &states, black_box(&mut outputs))
     })? / each;
+    // Matrices of large trees leave the caches whatever computes them.
+    let [mass_lanes, by_state_lanes] =
+        if n <= 100 { matrices_in_lanes(tree, &states, &mut batch)? } else { ["–", "–"].map(str::to_owned) };
     println!(
-        "| {name} | {inverse:.1} | {forward:.1} | {inverse_lanes:.1} | {forward_lanes:.1} | {mass:.0} | {by_forces:.0} | {by_state:.0} |"
+        "| {name} | {inverse:.1} | {forward:.1} | {inverse_lanes:.1} | {forward_lanes:.1} | {mass:.0} | {by_forces:.0} | {by_state:.0} | {mass_lanes} | {by_state_lanes} |"
     );
     Ok([inverse, forward])
 }
 
+/// Mass matrix and derivatives, a state.
+fn matrices_in_lanes(
+    tree: &RigidTree,
+    states: &StateBlocks,
+    batch: &mut BatchWorkspace,
+) -> Result<[String; 2], MultibodyError> {
+    let (n, count) = (tree.freedoms(), states.states());
+    let mut matrices = StateBlocks::new(n * n, count);
+    let mut derivatives = DerivativeBlocks::new(tree, count);
+    let mass = least(|| tree.mass_matrix_of_states(batch, black_box(states), black_box(&mut matrices)))?;
+    let by_state = least(|| {
+        let states = black_box(states);
+        tree.forward_dynamics_derivatives_of_states(batch, states, states, states, black_box(&mut derivatives))
+    })?;
+    Ok([mass, by_state].map(|time| format!("{:.0}", time / count as f64)))
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
-    println!("| tree | inverse | forward | inverse, lanes | forward, lanes | M | ∂τ | ∂v̇ |");
-    println!("|---|---|---|---|---|---|---|---|");
+    println!("| tree | inverse | forward | inverse, lanes | forward, lanes | M | ∂τ | ∂v̇ | M, lanes | ∂v̇, lanes |");
+    println!("|---|---|---|---|---|---|---|---|---|---|");
     row("ur5", &trees::ur5())?;
     let mut ends = Vec::new();
     for links in [10, 30, 100, 300, 1000] {

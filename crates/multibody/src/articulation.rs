@@ -26,7 +26,15 @@ pub(crate) fn inverse_of<T: Real, const N: usize>(d: [[T; N]; N]) -> ([[T; N]; N
                 l[i][j] -= entry;
             }
         }
-        is_positive = is_positive & T::zero().less_than(l[j][j]);
+        // A pivot of the size of rounding beside those of rotations, or of displacements, is none.
+        let first = j / 3 * 3;
+        let mut trace = d[first][first];
+        for i in first + 1..first + 3 {
+            if i < N {
+                trace += d[i][i];
+            }
+        }
+        is_positive = is_positive & (T::lit(8.0 * f64::EPSILON) * trace).less_than(l[j][j]);
         let reciprocal = l[j][j].recip();
         for i in j + 1..N {
             l[i][j] *= reciprocal;
@@ -52,6 +60,8 @@ pub(crate) fn inverse_of<T: Real, const N: usize>(d: [[T; N]; N]) -> ([[T; N]; N
             inverse[i][c] = x[i];
         }
     }
+    // So that the joint is found.
+    inverse[0][0] = T::select(is_positive, inverse[0][0], T::lit(f64::INFINITY));
     (inverse, is_positive)
 }
 

@@ -92,6 +92,28 @@ pub enum MultibodyError {
         /// The reduced inertia, kg or kg m².
         inertia: f64,
     },
+    /// A body is so light that a motion of it meets no inertia, although there is mass beyond its joint.
+    #[error(
+        "a motion of body `{body}` by joint `{joint}` meets no inertia (reduced inertia {inertia}): the body itself has a mass \
+         of {mass} kg, the joints beyond it leave it free, and closures do not count here; give the body mass and inertia \
+         about all axes, or the joint a reflected inertia"
+    )]
+    TooLightBody {
+        /// The body's name.
+        body: String,
+        /// The joint that moves it.
+        joint: String,
+        /// The body's own mass, kg.
+        mass: f64,
+        /// The reduced inertia, kg or kg m²: zero where rounding leaves none.
+        inertia: f64,
+    },
+    /// 0 < w < ∞ is violated by the rate below which friction is smooth.
+    #[error("the slip rate is {slip_rate}; it must satisfy 0 < x < ∞")]
+    InvalidSlipRate {
+        /// The rate, rad/s and m/s.
+        slip_rate: f64,
+    },
     /// |q| = 1 is violated by a quaternion of the configuration.
     #[error("the quaternion of joint `{joint}` has length {length}; it must be a unit quaternion")]
     NotUnitQuaternion {
@@ -149,34 +171,28 @@ pub enum MultibodyError {
         /// The last correction, of the size of the coordinates.
         correction: f64,
     },
-    /// A method that needs coordinates with q̇ = v.
-    #[error("joint `{joint}` has a quaternion; this method needs joints with one coordinate a freedom")]
-    NeedsPlainCoordinates {
-        /// The joint's name.
-        joint: String,
-    },
     /// A condition of linear algebra.
     #[error(transparent)]
     Numerics(piola_numerics::NumericsError),
-    /// A URDF text violates a condition.
+    /// The text of a robot's file violates a condition.
     #[error("line {line}: {fault}")]
-    Urdf {
+    InFile {
         /// The line, from 1.
         line: usize,
         /// The condition.
-        fault: UrdfFault,
+        fault: FileFault,
     },
-    /// A URDF file cannot be read.
+    /// A robot's file cannot be read.
     #[error("cannot read {path}: {reason}")]
-    UrdfFile {
+    UnreadableFile {
         /// The file.
         path: String,
         /// The reason given by the system.
         reason: String,
     },
-    /// A URDF file is longer than those that are read.
-    #[error("{path} has more than {limit} bytes, the most that a URDF file may have")]
-    UrdfFileTooLong {
+    /// A robot's file is longer than those that are read.
+    #[error("{path} has more than {limit} bytes, the most that a robot's file may have")]
+    FileTooLong {
         /// The file.
         path: String,
         /// The most bytes that are read.
@@ -200,10 +216,10 @@ pub enum MultibodyError {
     },
 }
 
-/// What is wrong at a line of a URDF text.
+/// What is wrong at a line of a robot's file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum UrdfFault {
+pub enum FileFault {
     /// The text is no XML.
     #[error("{reason}")]
     Syntax {
@@ -231,6 +247,44 @@ pub enum UrdfFault {
         attribute: &'static str,
         /// Its text.
         text: String,
+    },
+    /// A word that is not one of those that an attribute may have.
+    #[error("`{attribute}` is \"{text}\"; it must be {valid}")]
+    NoSuchWord {
+        /// The attribute.
+        attribute: &'static str,
+        /// Its text.
+        text: String,
+        /// What it may be.
+        valid: &'static str,
+    },
+    /// Two attributes that say the same thing.
+    #[error("`{element}` has `{first}` and `{second}`; one of them is enough")]
+    TwoAttributes {
+        /// The element.
+        element: String,
+        /// One attribute.
+        first: &'static str,
+        /// The other.
+        second: &'static str,
+    },
+    /// An element names something that does not exist.
+    #[error("there is no {what} named `{name}`")]
+    NoSuchName {
+        /// "class", "body", "joint" or "site".
+        what: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// A number outside its range.
+    #[error("`{attribute}` is {value}; it must satisfy {condition}")]
+    OutOfRange {
+        /// The attribute.
+        attribute: &'static str,
+        /// Its value.
+        value: f64,
+        /// The condition.
+        condition: &'static str,
     },
     /// A length of a shape is negative.
     #[error("`{attribute}` is {value}; it must not be negative")]

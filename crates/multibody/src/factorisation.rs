@@ -61,7 +61,8 @@ impl<T: Real> TreeFactors<T> {
     /// Factorises the mass matrix at a configuration.
     ///
     /// # Errors
-    /// As [`RigidTree::mass_matrix`]; [`MultibodyError::NoInertia`] unless M is positive definite;
+    /// As [`RigidTree::mass_matrix`]; [`MultibodyError::NoInertia`] or [`MultibodyError::TooLightBody`] unless M is positive
+    /// definite;
     /// [`MultibodyError::WrongLength`] for factors of another tree.
     pub fn factorise(&mut self, tree: &RigidTree, work: &mut TreeWorkspace<T>, q: &[T]) -> Result<(), MultibodyError> {
         check_length("factors", tree.freedoms, self.towards_ground.len())?;
@@ -74,8 +75,8 @@ impl<T: Real> TreeFactors<T> {
                 let value = pivot.primal(lane);
                 if !(0.0 < value && value < f64::INFINITY) {
                     let link = tree.links.iter().rfind(|link| link.v <= k);
-                    let joint = link.map_or_else(String::new, |link| tree.joint_of(link));
-                    return Err(MultibodyError::NoInertia { joint, inertia: value });
+                    let unknown = MultibodyError::NoInertia { joint: String::new(), inertia: value };
+                    return Err(link.map_or(unknown, |link| tree.no_inertia(link, value)));
                 }
             }
             let reciprocal = pivot.recip();

@@ -21,7 +21,7 @@ use crate::error::{MultibodyError, all_finite, check_length};
 use crate::inverse_dynamics::AppliedWrench;
 use crate::link::{Elementary, Link, Pair, take};
 use crate::spatial::{add, cross, dot, lit, lit_symmetric, sub, symmetric_times};
-use crate::tree::RigidTree;
+use crate::tree::{BodyIndex, BodyInertia, RigidTree};
 use crate::turn::Turning;
 use crate::workspace::{LinkArticulation, TreeWorkspace};
 
@@ -40,7 +40,8 @@ impl RigidTree {
     ///
     /// # Errors
     /// [`MultibodyError::WrongLength`], [`MultibodyError::NotFinite`], [`MultibodyError::NotUnitQuaternion`],
-    /// [`MultibodyError::OtherWorkspace`]; [`MultibodyError::NoInertia`] unless every reduced inertia is positive.
+    /// [`MultibodyError::OtherWorkspace`]; [`MultibodyError::NoInertia`] or [`MultibodyError::TooLightBody`] unless
+    /// every reduced inertia is positive.
     ///
     /// # Accuracy
     /// A few ulp times the condition number of the mass matrix: see the page on accuracy.
@@ -102,12 +103,35 @@ impl RigidTree {
                 for lane in 0..T::LANES {
                     let value = inverse.primal(lane);
                     if !(0.0 < value && value < f64::INFINITY) {
-                        return Err(MultibodyError::NoInertia { joint: self.joint_of(link), inertia: value.recip() });
+                        return Err(self.no_inertia(link, value.recip()));
                     }
                 }
             }
         }
         Ok(())
+    }
+}
+
+impl RigidTree {
+    /// What is wrong with a joint that meets no inertia.
+    #[cold]
+    pub(crate) fn no_inertia(&self, link: &Link, inertia: f64) -> MultibodyError {
+        let joint = self.joint_of(link);
+        let first = self.links.iter().position(|other| other.v == link.v).unwrap_or(0);
+        let mut is_beyond = vec![false; self.links.len()];
+        is_beyond[first] = true;
+        let mut mass = 0.0;
+        for i in first..self.links.len() {
+            let parent = self.links[i].parent;
+            is_beyond[i] |= parent != 0 && is_beyond[parent - 1];
+            mass += if is_beyond[i] { self.links[i].mass } else { 0.0 };
+        }
+        if mass <= 0.0 {
+            return MultibodyError::NoInertia { joint, inertia };
+        }
+        let child = self.joints.get(link.joint).map_or(BodyIndex::GROUND, |place| place.child);
+        let mass = self.inertias.get(child.index()).map_or(0.0, BodyInertia::mass);
+        MultibodyError::TooLightBody { body: self.body_name(child).to_owned(), joint, mass, inertia }
     }
 }
 

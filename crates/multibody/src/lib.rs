@@ -13,14 +13,20 @@ mod derivatives;
 mod elementary;
 mod error;
 mod factorisation;
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
+mod files;
 mod forward_dynamics;
 mod group;
 mod inverse_dynamics;
 mod jacobian;
+mod joint_forces;
+mod kept;
 mod kinematics;
 mod link;
 mod loops;
 mod mass_matrix;
+#[cfg(feature = "mjcf")]
+mod mjcf;
 mod momentum;
 mod motion;
 mod reactions;
@@ -35,21 +41,31 @@ mod urdf;
 mod variational;
 mod workspace;
 
-pub use batch::{BatchWorkspace, StateBlocks};
+pub use batch::{BatchWorkspace, DerivativeBlocks, StateBlocks};
 pub use derivatives::AccelerationDerivatives;
-pub use error::{MultibodyError, UrdfFault};
+pub use error::{FileFault, MultibodyError};
 pub use factorisation::TreeFactors;
+#[cfg(all(feature = "urdf", feature = "mjcf"))]
+pub use files::RobotFile;
+#[cfg(any(feature = "urdf", feature = "mjcf"))]
+pub use files::{FileInertias, Visual, VisualShape};
 pub use group::TreeGroup;
 pub use inverse_dynamics::AppliedWrench;
+pub use joint_forces::JointPowers;
+pub use kept::{KeptMassMatrix, UpdateCounts};
 pub use kinematics::{FrameAcceleration, FramePlace, FrameVelocity};
 pub use loops::{BodyPoint, ClosedMotion, ClosedTree, LoopClosure, LoopWorkspace};
+#[cfg(feature = "mjcf")]
+pub use mjcf::{FileMotor, Mjcf, MjcfOptions, SkippedElement};
 pub use momentum::{CentroidalMomentum, MassCentre, TreeEnergies};
 pub use motion::TreeMotion;
 pub use piola_kinematics::SingularPosition;
 pub use reactions::JointReaction;
 pub use regressor::INERTIAL_PARAMETERS;
-pub use tree::{BodyIndex, BodyInertia, FrameIndex, JointKind, JointPlace, RigidTree, RigidTreeBuilder, TreeJoint};
+pub use tree::{
+    BodyIndex, BodyInertia, FrameIndex, JointKind, JointPlace, RigidTree, RigidTreeBuilder, TreeJoint, TreePlan,
+};
 #[cfg(feature = "urdf")]
-pub use urdf::{Mimic, Urdf, UrdfBase, UrdfInertias, UrdfOptions, Visual, VisualShape};
+pub use urdf::{Mimic, Urdf, UrdfBase, UrdfOptions};
 pub use variational::VariationalTree;
 pub use workspace::TreeWorkspace;

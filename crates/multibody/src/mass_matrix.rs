@@ -75,30 +75,36 @@ impl<T: Real> Kernel for MassMatrix<'_, T> {
     type Output = ();
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) {
-        let Self { tree, work, q, out } = self;
-        let TreeWorkspace { space, rows, composite, forces, .. } = work;
-        for (i, link) in tree.links.iter().enumerate() {
-            for_kind!(link.kind, place::<T>(link, i + 1, q, space, forces));
-        }
-        pass_subspaces(tree, space, rows);
-        if tree.links.iter().any(|link| link.run != 1) {
-            out.fill(T::zero());
-        }
-        for (link, composite) in tree.links.iter().zip(&mut composite[1..]) {
-            composite.moment = lit(link.moment);
-            composite.inertia = lit_symmetric(link.inertia);
-            composite.mass = T::lit(link.mass);
-        }
-        let reference = reference(space);
-        for (i, link) in tree.links.iter().enumerate().rev() {
-            for_kind!(link.kind, column::<T>(tree, link, i + 1, forces, space, composite, reference, rows, out));
-        }
+        fill(self.tree, self.work, self.q, self.out);
+    }
+}
+
+/// The mass matrix without checks.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn fill<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace<T>, q: &[T], out: &mut [T]) {
+    let TreeWorkspace { space, rows, composite, forces, .. } = work;
+    for (i, link) in tree.links.iter().enumerate() {
+        for_kind!(link.kind, place::<T>(link, i + 1, q, space, forces));
+    }
+    pass_subspaces(tree, space, rows);
+    if tree.links.iter().any(|link| link.run != 1) {
+        out.fill(T::zero());
+    }
+    for (link, composite) in tree.links.iter().zip(&mut composite[1..]) {
+        composite.moment = lit(link.moment);
+        composite.inertia = lit_symmetric(link.inertia);
+        composite.mass = T::lit(link.mass);
+    }
+    let reference = reference(space);
+    for (i, link) in tree.links.iter().enumerate().rev() {
+        for_kind!(link.kind, column::<T>(tree, link, i + 1, i + 1, space, composite, reference, rows, out));
+        for_kind!(link.kind, add_to_parent::<T>(link, i + 1, forces, composite));
     }
 }
 
 /// Places a link in space and keeps its turn.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn place<T: Real, E: Elementary<T, N>, const N: usize>(
+pub(crate) fn place<T: Real, E: Elementary<T, N>, const N: usize>(
     link: &Link,
     state: usize,
     q: &[T],
@@ -114,15 +120,17 @@ fn place<T: Real, E: Elementary<T, N>, const N: usize>(
     space[state].origin = place;
 }
 
+/// The columns of a link, and their rows: the entries of the freedoms from the link `from`, which is this one or nearer to the
+/// ground.
 #[cfg_attr(not(debug_assertions), inline(always))]
 #[expect(clippy::too_many_arguments, reason = "the parts of a workspace")]
-fn column<T: Real, E: Elementary<T, N>, const N: usize>(
+pub(crate) fn column<T: Real, E: Elementary<T, N>, const N: usize>(
     tree: &RigidTree,
     link: &Link,
     state: usize,
-    forces: &[LinkForces<T>],
+    from: usize,
     space: &[LinkInSpace<T>],
-    composite: &mut [Composite<T>],
+    composite: &[Composite<T>],
     reference: [T; 3],
     rows: &Rows<T>,
     out: &mut [T],
@@ -141,19 +149,31 @@ fn column<T: Real, E: Elementary<T, N>, const N: usize>(
         let moment = add(times(here.axes, columns[k].0), cross(arm, force));
         let j = link.v + k;
         // Freedoms of the same joint beyond this one are left to their own columns.
-        for (first, end) in Runs::of(tree, state) {
+        for (first, end) in Runs::of(tree, from) {
             let end = end.min(j + 1);
             let column = &mut out[j * n + first..j * n + end];
             dots(rows, SUBSPACE, first, moment, force, column);
         }
-        out[j * n + j] += T::lit(tree.armature[j]);
-        for (first, end) in Runs::of(tree, state) {
+        if from == state {
+            out[j * n + j] += T::lit(tree.armature[j]);
+        }
+        for (first, end) in Runs::of(tree, from) {
             for i in first..end.min(j) {
                 out[i * n + j] = out[j * n + i];
             }
         }
         k += 1;
     }
+}
+
+/// Adds the composite inertia of a link to its parent's.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn add_to_parent<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    state: usize,
+    forces: &[LinkForces<T>],
+    composite: &mut [Composite<T>],
+) {
     if link.parent != 0 {
         let (turn, origin) = (E::Turn::recall(&forces[state].turn), forces[state].origin);
         let own = &composite[state];

@@ -148,7 +148,7 @@ pub(crate) fn reference<T: Real>(states: &[LinkInSpace<T>]) -> Vector<T> {
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn subspaces<T: Real, E: Elementary<T, N>, const N: usize>(
+pub(crate) fn subspaces<T: Real, E: Elementary<T, N>, const N: usize>(
     link: &Link,
     state: &LinkInSpace<T>,
     reference: Vector<T>,

@@ -133,7 +133,15 @@ pub struct TreeWorkspace<T> {
     /// Several columns for each freedom.
     pub(crate) column_values: Vec<[T; COLUMNS]>,
     pub(crate) column_vectors: Vec<ColumnVectors<T>>,
+    /// M⁻¹ with columns of a length that fours divide, for trees so small that products with it are the fastest.
+    pub(crate) dense: Vec<T>,
 }
+
+/// Freedoms up to which M⁻¹ multiplies columns: beyond, solves along the tree are faster.
+pub(crate) const DENSE: usize = 12;
+
+/// Rows of a product that are summed at once.
+pub(crate) const FOUR: usize = 4;
 
 /// Columns that are solved at once.
 pub(crate) const COLUMNS: usize = 8;
@@ -203,6 +211,7 @@ impl RigidTree {
             column_states: vec![[[T::zero(); COLUMNS]; 6]; states],
             column_values: vec![[T::zero(); COLUMNS]; n],
             column_vectors: vec![ColumnVectors { subspace: symmetric, gain: symmetric }; n],
+            dense: if n <= DENSE { vec![T::zero(); n * n.next_multiple_of(FOUR)] } else { Vec::new() },
         }
     }
 

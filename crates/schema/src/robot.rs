@@ -26,13 +26,13 @@ static SINGULAR: [Word; 2] = [
 ];
 
 table! {
-    /// A tree of rigid bodies from a URDF file, with the span of time in `[time]`. `[integrator]` may have a
+    /// A tree of rigid bodies from a URDF or MJCF file, with the span of time in `[time]`. `[integrator]` may have a
     /// `tolerance`, 1e-9 when absent: relative, and absolute in m, rad, m/s and rad/s. Limits of joints are not enforced: the summary names the joints that leave them.
     /// Coulomb friction of joints is not applied.
     pub(super) static ROBOT = "robot" {
-        /// The URDF file, relative to the scene.
+        /// The URDF or MJCF file, relative to the scene. MJCF is what has `mujoco` as its first element.
         file: Path, Required;
-        /// How the root stands.
+        /// How the root of a URDF file stands. An MJCF file says it itself.
         base: Kind::Choice(&BASES), Default("\"fixed\"");
         /// The inertias of the file.
         inertias: Kind::Choice(&INERTIAS), Default("\"checked\"");
@@ -54,8 +54,8 @@ table! {
 }
 
 table! {
-    /// A joint of the file: where it starts and what drives it. Joints without a table start at zero, at rest, with the
-    /// damping of the file. Numbers without a unit are in SI units.
+    /// A joint of the file: where it starts and what drives it. Joints without a table start where the file places them
+    /// (URDF: at zero), at rest, with the damping and springs of the file. Numbers without a unit are in SI units.
     pub(super) static DRIVE = "drive" {
         /// The joint's name in the file.
         name: Text, Required;

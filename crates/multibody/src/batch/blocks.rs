@@ -1,6 +1,7 @@
 //! Many vectors in blocks of eight, component by component, as lanes load them.
 
 use crate::error::{MultibodyError, check_length};
+use crate::tree::RigidTree;
 
 /// States in one block.
 pub(crate) const BLOCK: usize = 8;
@@ -83,5 +84,48 @@ impl StateBlocks {
             return Ok(());
         }
         Err(MultibodyError::NoSuchIndex { what: "state", index: state, count: self.states })
+    }
+}
+
+/// [`AccelerationDerivatives`](crate::AccelerationDerivatives) of many states.
+///
+/// # Example
+/// A hundred hanging pendulums of 2 kg and 0.5 m: −g/l and 1/(m l²).
+/// ```
+/// use piola_multibody::{
+///     BatchWorkspace, BodyIndex, BodyInertia, DerivativeBlocks, JointKind, RigidTree, StateBlocks, TreeJoint,
+/// };
+/// let mut builder = RigidTree::builder();
+/// let hinge = TreeJoint::new("hinge", JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// builder.attach(BodyIndex::GROUND, hinge, "bob", BodyInertia::particle(2.0, [0.0, 0.0, -0.5])?)?;
+/// let tree = builder.build()?;
+/// let (zeros, mut out) = (StateBlocks::new(1, 100), DerivativeBlocks::new(&tree, 100));
+/// let mut work = BatchWorkspace::new(&tree, 1);
+/// tree.forward_dynamics_derivatives_of_states(&mut work, &zeros, &zeros, &zeros, &mut out)?;
+/// let (mut by_q, mut by_tau) = ([0.0], [0.0]);
+/// out.by_q.get(99, &mut by_q)?;
+/// out.by_tau.get(99, &mut by_tau)?;
+/// assert_eq!((by_q, by_tau), ([-19.62], [2.0]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct DerivativeBlocks {
+    /// v̇.
+    pub acceleration: StateBlocks,
+    /// ∂v̇/∂q, along the tangent space: ∂v̇ᵢ/∂qⱼ at `i + j n`.
+    pub by_q: StateBlocks,
+    /// ∂v̇/∂v.
+    pub by_v: StateBlocks,
+    /// ∂v̇/∂τ = M⁻¹.
+    pub by_tau: StateBlocks,
+}
+
+impl DerivativeBlocks {
+    /// Memory for the derivatives at so many states of a tree.
+    #[must_use]
+    pub fn new(tree: &RigidTree, states: usize) -> Self {
+        let n = tree.freedoms();
+        let matrix = StateBlocks::new(n * n, states);
+        Self { acceleration: StateBlocks::new(n, states), by_q: matrix.clone(), by_v: matrix.clone(), by_tau: matrix }
     }
 }

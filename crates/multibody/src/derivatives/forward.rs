@@ -4,7 +4,8 @@
 //! ∂v̇/∂q = −M⁻¹ ∂τ/∂q        ∂v̇/∂v = −M⁻¹ ∂τ/∂v        ∂v̇/∂τ = M⁻¹        ∂τ of inverse dynamics at v̇
 //! ```
 //!
-//! Each column is solved along the tree by the articulated inertias of the forward dynamics.
+//! Each column is solved along the tree by the articulated inertias of the forward dynamics. Up to 12 freedoms M⁻¹ alone is found
+//! so, and multiplies the other columns.
 
 use piola_numerics::{Kernel, Mask, Real, dispatch};
 
@@ -17,7 +18,7 @@ use crate::link::{Elementary, Link};
 use crate::spatial::{add, times};
 use crate::tree::RigidTree;
 use crate::turn::Turning;
-use crate::workspace::{LinkArticulation, LinkInSpace, TreeWorkspace};
+use crate::workspace::{DENSE, FOUR, LinkArticulation, LinkInSpace, TreeWorkspace};
 
 /// What [`RigidTree::forward_dynamics_derivatives`] writes: v̇ and its derivatives.
 ///
@@ -125,22 +126,78 @@ impl<T: Real> Kernel for Derivatives<'_, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> bool {
         let Self { tree, work, q, v, tau, out } = self;
-        let n = tree.freedoms;
-        let AccelerationDerivatives { acceleration, by_q, by_v, by_tau } = out;
         pass_outwards(tree, &mut work.articulation, q, v);
-        let is_positive = pass_inwards(tree, work, tau, acceleration);
-        pass_accelerations(tree, &mut work.articulation, &work.gains, acceleration);
-        let TreeWorkspace { articulation, space, .. } = &mut *work;
-        for (i, link) in tree.links.iter().enumerate() {
-            for_kind!(link.kind, place::<T>(link, &articulation[i + 1], i + 1, space));
-        }
-        differentiate(tree, work, v, acceleration, by_q, by_v, None);
-        by_tau.fill(T::zero());
-        for j in 0..n {
-            by_tau[j * n + j] = T::one();
-        }
-        gains_in_space(tree, work);
+        let is_positive = pass_inwards(tree, work, tau, &mut out.acceleration);
+        pass_accelerations(tree, &mut work.articulation, &work.gains, &mut out.acceleration);
+        differentiate_accelerations(tree, work, v, out) && is_positive.all()
+    }
+}
+
+/// The derivatives of accelerations that are there, with the articulated inertias of forward dynamics; true where all is finite.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn differentiate_accelerations<T: Real>(
+    tree: &RigidTree,
+    work: &mut TreeWorkspace<T>,
+    v: &[T],
+    out: &mut AccelerationDerivatives<T>,
+) -> bool {
+    let n = tree.freedoms;
+    let AccelerationDerivatives { acceleration, by_q, by_v, by_tau } = out;
+    let TreeWorkspace { articulation, space, .. } = &mut *work;
+    for (i, link) in tree.links.iter().enumerate() {
+        for_kind!(link.kind, place::<T>(link, &articulation[i + 1], i + 1, space));
+    }
+    differentiate(tree, work, v, acceleration, by_q, by_v, None);
+    by_tau.fill(T::zero());
+    for j in 0..n {
+        by_tau[j * n + j] = T::one();
+    }
+    gains_in_space(tree, work);
+    if n <= DENSE {
+        solve_columns(tree, work, &mut [&mut by_tau[..]], &[1.0], n);
+        multiply_columns(work, by_tau, [by_q, by_v], n);
+    } else {
         solve_columns(tree, work, &mut [&mut by_q[..], &mut by_v[..], &mut by_tau[..]], &[-1.0, -1.0, 1.0], n);
-        is_positive.all() && all_finite(by_q) && all_finite(by_v) && all_finite(by_tau)
+    }
+    all_finite(by_q) && all_finite(by_v) && all_finite(by_tau)
+}
+
+/// Replaces the columns b of matrices by −M⁻¹ b, where M⁻¹ is there.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn multiply_columns<T: Real>(work: &mut TreeWorkspace<T>, inverse: &[T], matrices: [&mut [T]; 2], n: usize) {
+    if n == 0 {
+        return;
+    }
+    let TreeWorkspace { dense, column, .. } = work;
+    let stride = n.next_multiple_of(FOUR);
+    for (to, from) in dense.chunks_exact_mut(stride).zip(inverse.chunks_exact(n)) {
+        for (to, &from) in to.iter_mut().zip(from) {
+            *to = -from;
+        }
+    }
+    for matrix in matrices {
+        for b in matrix.chunks_exact_mut(n) {
+            column[..n].copy_from_slice(b);
+            for group in 0..stride / FOUR {
+                let mut sum = [T::zero(); FOUR];
+                for (of_inverse, &value) in dense.chunks_exact(stride).zip(&column[..n]) {
+                    let of_inverse = &of_inverse.as_chunks::<FOUR>().0[group];
+                    let mut k = 0;
+                    while k < FOUR {
+                        sum[k] += of_inverse[k] * value;
+                        k += 1;
+                    }
+                }
+                put_group(b, group, &sum);
+            }
+        }
+    }
+}
+
+/// Writes four rows of a product, as many of them as there are.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn put_group<T: Real>(out: &mut [T], group: usize, values: &[T; FOUR]) {
+    for (out, &value) in out[group * FOUR..].iter_mut().zip(values) {
+        *out = value;
     }
 }

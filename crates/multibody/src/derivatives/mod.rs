@@ -9,3 +9,4 @@ mod inverse;
 
 pub(crate) use columns::{gains_in_space, solve_columns};
 pub use forward::AccelerationDerivatives;
+pub(crate) use forward::differentiate_accelerations;

@@ -88,6 +88,14 @@ impl ClosedTree {
         &self.tree
     }
 
+    /// Sets gravity (m/s², space components).
+    ///
+    /// # Errors
+    /// [`MultibodyError::NotFinite`].
+    pub fn set_gravity(&mut self, gravity: [f64; 3]) -> Result<(), MultibodyError> {
+        self.tree.set_gravity(gravity)
+    }
+
     /// The conditions of all closures, m.
     #[must_use]
     pub const fn conditions(&self) -> usize {

@@ -123,6 +123,10 @@ pub struct TreeJoint {
     pub damping: f64,
     /// Coulomb friction, N m or N.
     pub friction: f64,
+    /// Stiffness of a spring, N m/rad or N/m.
+    pub stiffness: f64,
+    /// The coordinate at which the spring is at rest, rad or m.
+    pub rest: f64,
     /// Lower and upper limit of each coordinate: infinite where there is none.
     pub limits: [f64; 2],
     /// Largest rate, rad/s or m/s: infinite where there is none.
@@ -142,6 +146,8 @@ impl TreeJoint {
             armature: 0.0,
             damping: 0.0,
             friction: 0.0,
+            stiffness: 0.0,
+            rest: 0.0,
             limits: [f64::NEG_INFINITY, f64::INFINITY],
             largest_rate: f64::INFINITY,
             largest_effort: f64::INFINITY,
@@ -177,6 +183,15 @@ impl TreeJoint {
         self
     }
 
+    /// Sets a spring: its stiffness (N m/rad or N/m) and the coordinate at which it is at rest (rad or m), for each freedom of a
+    /// joint without a quaternion.
+    #[must_use]
+    pub const fn with_spring(mut self, stiffness: f64, rest: f64) -> Self {
+        self.stiffness = stiffness;
+        self.rest = rest;
+        self
+    }
+
     /// Sets the limits of each coordinate.
     #[must_use]
     pub const fn with_limits(mut self, lower: f64, upper: f64) -> Self {
@@ -202,12 +217,21 @@ impl TreeJoint {
         if length.is_nan() || 1e-9 < (length - 1.0).abs() {
             return invalid("length of the attitude's quaternion", length, "|q| = 1");
         }
-        for (quantity, value) in
-            [("reflected inertia", self.armature), ("damping", self.damping), ("friction", self.friction)]
-        {
+        for (quantity, value) in [
+            ("reflected inertia", self.armature),
+            ("damping", self.damping),
+            ("friction", self.friction),
+            ("stiffness", self.stiffness),
+        ] {
             if !(0.0 <= value && value < f64::INFINITY) {
                 return invalid(quantity, value, "0 ≤ x < ∞");
             }
+        }
+        if !self.rest.is_finite() {
+            return invalid("coordinate at rest", self.rest, "|x| < ∞");
+        }
+        if 0.0 < self.stiffness && self.kind.coordinates() != self.kind.freedoms() {
+            return invalid("stiffness", self.stiffness, "x = 0 for joints with a quaternion");
         }
         for (quantity, value) in [("largest rate", self.largest_rate), ("largest effort", self.largest_effort)] {
             if value.is_nan() || value < 0.0 {

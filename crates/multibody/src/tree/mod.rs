@@ -3,12 +3,14 @@
 mod build;
 mod inertia;
 mod joint;
+mod plan;
 
 use piola_numerics::Real;
 
 pub use build::RigidTreeBuilder;
 pub use inertia::BodyInertia;
 pub use joint::{JointKind, TreeJoint};
+pub use plan::TreePlan;
 
 use crate::error::MultibodyError;
 use crate::link::{Kind, Link};

@@ -12,19 +12,13 @@
 //! Any other element is refused with its line.
 
 mod parse;
-mod visual;
 
-pub use visual::{Visual, VisualShape};
-
-use std::io::Read as _;
 use std::path::Path;
 
 use crate::error::MultibodyError;
+use crate::files::{FileInertias, Visual, read_text};
 use crate::loops::{ClosedTree, LoopClosure};
 use crate::tree::RigidTree;
-
-/// Bytes of a file at most: 16 MiB.
-const LONGEST: u64 = 1 << 24;
 
 /// How the root of a file stands on the ground.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -36,23 +30,12 @@ pub enum UrdfBase {
     Free,
 }
 
-/// What becomes of inertias that no body has.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum UrdfInertias {
-    /// They are refused: a mass that is not positive, a matrix that is not positive definite or violates the triangle
-    /// inequality.
-    #[default]
-    Checked,
-    /// They are used as given, zero masses too: see [`BodyInertia::as_given`](crate::BodyInertia::as_given).
-    AsGiven,
-}
-
 /// What the caller decides about a file.
 ///
 /// # Example
 /// ```
-/// use piola_multibody::{UrdfBase, UrdfInertias, UrdfOptions};
-/// let options = UrdfOptions { inertias: UrdfInertias::AsGiven, ..UrdfOptions::default() };
+/// use piola_multibody::{UrdfBase, FileInertias, UrdfOptions};
+/// let options = UrdfOptions { inertias: FileInertias::AsGiven, ..UrdfOptions::default() };
 /// assert_eq!(options.base, UrdfBase::Fixed);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,7 +43,7 @@ pub struct UrdfOptions {
     /// How the root stands.
     pub base: UrdfBase,
     /// What becomes of impossible inertias.
-    pub inertias: UrdfInertias,
+    pub inertias: FileInertias,
 }
 
 /// A joint that a file ties to another: q = `multiplier` q' + `offset`.
@@ -108,7 +91,7 @@ impl Urdf {
     /// Reads a tree from the text of a file.
     ///
     /// # Errors
-    /// [`MultibodyError::Urdf`] with the line, for all that the text violates; else as
+    /// [`MultibodyError::InFile`] with the line, for all that the text violates; else as
     /// [`RigidTreeBuilder::attach`](crate::RigidTreeBuilder::attach) and
     /// [`build`](crate::RigidTreeBuilder::build).
     pub fn parse(text: &str, options: UrdfOptions) -> Result<Self, MultibodyError> {
@@ -142,21 +125,9 @@ impl Urdf {
     /// Reads a tree from a file.
     ///
     /// # Errors
-    /// [`MultibodyError::UrdfFile`], also for what is no file, as a directory or a device;
-    /// [`MultibodyError::UrdfFileTooLong`] above 16 MiB; as [`parse`](Self::parse).
+    /// [`MultibodyError::UnreadableFile`], also for what is no file, as a directory or a device;
+    /// [`MultibodyError::FileTooLong`] above 16 MiB; as [`parse`](Self::parse).
     pub fn read(path: &Path, options: UrdfOptions) -> Result<Self, MultibodyError> {
-        let refused = |reason: String| MultibodyError::UrdfFile { path: path.display().to_string(), reason };
-        let unread = |error: std::io::Error| refused(error.to_string());
-        // Before it is opened: to open a pipe waits for a writer.
-        if !std::fs::metadata(path).map_err(unread)?.is_file() {
-            return Err(refused("it is not a regular file".to_owned()));
-        }
-        let mut bytes = Vec::new();
-        std::fs::File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes)).map_err(unread)?;
-        if LONGEST < bytes.len() as u64 {
-            return Err(MultibodyError::UrdfFileTooLong { path: path.display().to_string(), limit: LONGEST });
-        }
-        let text = String::from_utf8(bytes).map_err(|error| refused(error.to_string()))?;
-        Self::parse(&text, options)
+        Self::parse(&read_text(path)?, options)
     }
 }

@@ -2,8 +2,8 @@
 
 use piola_integrators::Order;
 use piola_multibody::{
-    AccelerationDerivatives, BatchWorkspace, BodyIndex, BodyPoint, ClosedTree, INERTIAL_PARAMETERS, LoopClosure,
-    StateBlocks, TreeFactors, VariationalTree,
+    AccelerationDerivatives, BatchWorkspace, BodyIndex, BodyPoint, ClosedTree, DerivativeBlocks, INERTIAL_PARAMETERS,
+    LoopClosure, StateBlocks, TreeFactors, VariationalTree,
 };
 use piola_testkit::allocations_in;
 
@@ -27,6 +27,9 @@ fn evaluations_allocate_nothing() {
         places.set(i, &state.q).unwrap();
     }
     let zeros = blocks.clone();
+    let (mut matrices, mut all) = (StateBlocks::new(n * n, 8), DerivativeBlocks::new(&tree, 8));
+    // The first call makes the memory for matrices.
+    tree.forward_dynamics_derivatives_of_states(&mut batch, &places, &zeros, &zeros, &mut all).unwrap();
     let body = tree.body("body 10").unwrap();
     let (q, v, a) = (&state.q, &state.v, &state.a);
     let (count, ()) = allocations_in(|| {
@@ -48,6 +51,8 @@ fn evaluations_allocate_nothing() {
         tree.forward_dynamics_derivatives(&mut work, q, v, a, &mut derivatives).unwrap();
         tree.inverse_dynamics_of_states(&mut batch, &places, &zeros, &zeros, &mut blocks).unwrap();
         tree.forward_dynamics_of_states(&mut batch, &places, &zeros, &zeros, &mut blocks).unwrap();
+        tree.mass_matrix_of_states(&mut batch, &places, &mut matrices).unwrap();
+        tree.forward_dynamics_derivatives_of_states(&mut batch, &places, &zeros, &zeros, &mut all).unwrap();
     });
     assert_eq!(count, 0);
 }

@@ -5,9 +5,13 @@ mod batch;
 mod derivatives;
 mod digits;
 mod golden;
+mod joint_forces;
+mod kept;
 mod laws;
 mod loops;
 mod mechanisms;
+#[cfg(feature = "mjcf")]
+mod mjcf;
 mod motions;
 mod placement;
 mod singular;

@@ -103,8 +103,10 @@ fn variational_method_keeps_the_energy_of_a_chain_with_all_plain_joints() {
 
 #[test]
 fn variational_method_refuses_what_it_cannot_do() {
-    let error = VariationalTree::new(&branched(), Order::Two, 1e-3).unwrap_err();
-    assert!(matches!(error, MultibodyError::NeedsPlainCoordinates { joint } if joint == "joint 0"));
+    let socket = tree_of(&[piola_multibody::JointKind::Spherical], &[0], 3);
+    let long = [1.1, 0.0, 0.0, 0.0];
+    let error = VariationalTree::new(&socket, Order::Two, 1e-3).unwrap().run(&mut { long }, &mut [0.0; 3], 1);
+    assert!(matches!(error, Err(MultibodyError::NotUnitQuaternion { joint, .. }) if joint == "joint 0"));
     let (tree, mut q, _) = horizontal(3);
     assert!(matches!(
         VariationalTree::new(&tree, Order::Two, 0.0).unwrap_err(),
@@ -116,4 +118,151 @@ fn variational_method_refuses_what_it_cannot_do() {
     assert!(matches!(error, MultibodyError::NoConvergence { .. }));
     assert_eq!((q, v), before);
     assert_eq!(BodyIndex::GROUND.index(), 0);
+}
+
+/// A free body, a socket and a hinge beyond it, another socket beside it.
+fn turning() -> RigidTree {
+    use piola_multibody::JointKind::{Free, Revolute, Spherical};
+    tree_of(&[Free, Spherical, Revolute { axis: [0.0, 0.6, 0.8] }, Spherical], &[0, 1, 2, 1], 5)
+}
+
+#[test]
+fn variational_method_has_its_orders_with_spherical_and_free_joints() {
+    let tree = turning();
+    let state = state_of(&tree, 3);
+    let nq = tree.coordinates();
+    let mut motion = tree.motion(|_t, _q: &[f64], _v: &[f64], tau: &mut [f64]| tau.fill(0.0));
+    let mut exact = State::new(0.0, [state.q.clone(), state.v.clone()].concat()).unwrap();
+    DormandPrince853::new(Tolerance::relative(1e-13).unwrap()).integrate_to(&mut motion, &mut exact, 0.4).unwrap();
+    let mut delta = vec![0.0; tree.freedoms()];
+    for (order, steps) in [(Order::Two, 80), (Order::Four, 20), (Order::Six, 20)] {
+        let mut errors = Vec::new();
+        for steps in [steps, 2 * steps] {
+            let (mut q, mut v) = (state.q.clone(), state.v.clone());
+            VariationalTree::new(&tree, order, 0.4 / steps as f64).unwrap().run(&mut q, &mut v, steps).unwrap();
+            tree.displacement(&exact.values[..nq], &q, &mut delta).unwrap();
+            let rates = v.iter().zip(&exact.values[nq..]).map(|(a, b)| a - b);
+            errors.push(delta.iter().copied().chain(rates).fold(0.0_f64, |most, x| most.max(x.abs())));
+        }
+        let found = (errors[0] / errors[1]).log2();
+        let expected = f64::from(order.value());
+        assert!(expected - 0.4 < found && found < expected + 0.8, "order {expected}: {found} {errors:?}");
+    }
+}
+
+/// Without gravity the Lagrangian is the same everywhere and in all directions: momenta stay to rounding at any step. The energy
+/// swings within a bound and does not drift.
+#[test]
+fn variational_method_keeps_momenta_exactly_and_energy_without_drift() {
+    let mut tree = turning();
+    tree.set_gravity([0.0; 3]).unwrap();
+    let state = state_of(&tree, 3);
+    let (mut q, mut v) = (state.q, state.v);
+    let mut work = tree.workspace();
+    let momenta = |work: &mut _, q: &[f64], v: &[f64]| {
+        let h = tree.centroidal_momentum(work, q, v).unwrap();
+        let centre = tree.mass_centre(work, q, v).unwrap();
+        let [r, p] = [centre.position, h.linear];
+        let about_origin = [r[1] * p[2] - r[2] * p[1], r[2] * p[0] - r[0] * p[2], r[0] * p[1] - r[1] * p[0]];
+        let angular = [0, 1, 2].map(|k| h.angular[k] + about_origin[k]);
+        (h.linear, angular)
+    };
+    let start = (momenta(&mut work, &q, &v), energy(&tree, &q, &v));
+    let mut method = VariationalTree::new(&tree, Order::Two, 0.01).unwrap();
+    let mut swings = Vec::new();
+    for _ in 0..4 {
+        let mut most = 0.0_f64;
+        for _ in 0..150 {
+            method.run(&mut q, &mut v, 1).unwrap();
+            most = most.max((energy(&tree, &q, &v) - start.1).abs());
+        }
+        swings.push(most);
+    }
+    let end = momenta(&mut work, &q, &v);
+    let rounding = Tol::ulps_because(4096.0, "each of 600 steps ends within some ulp");
+    assert_close("momentum", &end.0, &start.0.0, rounding);
+    assert_close("angular momentum", &end.1, &start.0.1, rounding);
+    assert!(swings[3] < 2.0 * swings[0] && 0.0 < swings[0], "{swings:?}");
+    assert!(swings[3] < 0.01 * start.1.abs(), "{swings:?} of {}", start.1);
+}
+
+/// Steps forth and back end where they began: the method is symmetric.
+#[test]
+fn variational_steps_are_reversible() {
+    let tree = turning();
+    let state = state_of(&tree, 3);
+    let (mut q, mut v) = (state.q.clone(), state.v.clone());
+    VariationalTree::new(&tree, Order::Four, 0.01).unwrap().run(&mut q, &mut v, 20).unwrap();
+    VariationalTree::new(&tree, Order::Four, -0.01).unwrap().run(&mut q, &mut v, 20).unwrap();
+    let rounding = Tol::ulps_because(4096.0, "forty steps, each to some ulp");
+    assert_close("q", &q, &state.q, rounding);
+    assert_close("v", &v, &state.v, rounding);
+}
+
+/// The two-form δp·η − … + p·[η, η'] of left-trivialised rotations is the same before and after a step.
+#[test]
+fn variational_steps_are_symplectic() {
+    use piola_multibody::JointKind::Spherical;
+    let tree = tree_of(&[Spherical, Spherical], &[0, 1], 9);
+    let n = tree.freedoms();
+    let state = state_of(&tree, 2);
+    let mut work = tree.workspace();
+    let mut momenta = |q: &[f64], v: &[f64]| {
+        let mut matrix = vec![0.0; n * n];
+        tree.mass_matrix(&mut work, q, &mut matrix).unwrap();
+        (0..n).map(|i| (0..n).map(|j| matrix[i + j * n] * v[j]).sum::<f64>()).collect::<Vec<_>>()
+    };
+    let step = |q: &mut [f64], v: &mut [f64]| {
+        VariationalTree::new(&tree, Order::Two, 0.05).unwrap().run(q, v, 1).unwrap();
+    };
+    let (mut q_end, mut v_end) = (state.q.clone(), state.v.clone());
+    step(&mut q_end, &mut v_end);
+    // Two tangents (η, δv) at the start, by central differences at both ends.
+    let size = 1e-4;
+    let mut tangents = [Vec::new(), Vec::new()];
+    for seed in 0..2_usize {
+        let eta: Vec<f64> = (0..n).map(|k| ((k * 7 + seed * 5 + 3) % 11) as f64 / 11.0 - 0.4).collect();
+        let delta: Vec<f64> = (0..n).map(|k| ((k * 5 + seed * 3 + 1) % 7) as f64 / 7.0 - 0.5).collect();
+        let [mut starts, mut ends] = [Vec::new(), Vec::new()];
+        for sign in [-size, size] {
+            let (mut q, mut v) = (state.q.clone(), state.v.clone());
+            tree.move_configuration(&mut q, &eta.iter().map(|x| sign * x).collect::<Vec<_>>()).unwrap();
+            for (v, delta) in v.iter_mut().zip(&delta) {
+                *v += sign * delta;
+            }
+            for (list, (base, is_end)) in [(&mut starts, (&state.q, false)), (&mut ends, (&q_end, true))] {
+                if is_end {
+                    step(&mut q, &mut v);
+                }
+                let mut moved = vec![0.0; n];
+                tree.displacement(base, &q, &mut moved).unwrap();
+                list.push((moved, momenta(&q, &v)));
+            }
+        }
+        for (tangents, list) in tangents.iter_mut().zip([starts, ends]) {
+            let slope = |end: &[f64], start: &[f64]| {
+                end.iter().zip(start).map(|(a, b)| (a - b) / (2.0 * size)).collect::<Vec<_>>()
+            };
+            tangents.push((slope(&list[1].0, &list[0].0), slope(&list[1].1, &list[0].1)));
+        }
+    }
+    let form = |tangents: &[(Vec<f64>, Vec<f64>)], p: &[f64]| {
+        let [(a, da), (b, db)] = [&tangents[0], &tangents[1]];
+        let mut sum = 0.0;
+        for k in (0..n).step_by(3) {
+            let bracket = [
+                a[k + 1] * b[k + 2] - a[k + 2] * b[k + 1],
+                a[k + 2] * b[k] - a[k] * b[k + 2],
+                a[k] * b[k + 1] - a[k + 1] * b[k],
+            ];
+            for i in 0..3 {
+                sum += da[k + i] * b[k + i] - db[k + i] * a[k + i] - p[k + i] * bracket[i];
+            }
+        }
+        sum
+    };
+    let before = form(&tangents[0], &momenta(&state.q, &state.v));
+    let after = form(&tangents[1], &momenta(&q_end, &v_end));
+    assert!(0.01 < before.abs(), "{before}");
+    assert_close("two-form", &[after], &[before], Tol::stated(1e-6, "differences of 10⁻⁴ to second order"));
 }

@@ -109,7 +109,7 @@ fn joints_that_move_no_inertia_are_named() {
     builder.attach(BodyIndex::GROUND, TreeJoint::new("idle", Y), "bob", bob).unwrap();
     let tree = builder.build().unwrap();
     let error = tree.forward_dynamics(&mut tree.workspace(), &[0.0], &[0.0], &[1.0], &mut [0.0]).unwrap_err();
-    assert!(matches!(error, MultibodyError::NoInertia { joint, .. } if joint == "idle"));
+    assert!(matches!(error, MultibodyError::TooLightBody { body, joint, .. } if body == "bob" && joint == "idle"));
     // Its motor has.
     let mut builder = RigidTree::builder();
     let joint = TreeJoint::new("geared", Y).with_armature(0.5);
@@ -150,4 +150,32 @@ fn wrong_state_of_a_batch_is_named() {
     assert_eq!(error, MultibodyError::InState { state: 13, source: Box::new(source) });
     let error = wrong.set(21, &[0.0; 3]).unwrap_err();
     assert!(matches!(error, MultibodyError::NoSuchIndex { what: "state", index: 21, count: 21 }));
+}
+
+/// A massless base that is free is at the mercy of the joints beyond it: closures do not hold it in the tree.
+#[test]
+fn massless_free_base_is_refused_by_its_name_with_the_reason() {
+    use piola_multibody::{BodyPoint, ClosedTree, LoopClosure};
+    let mut builder = RigidTree::builder();
+    let free = TreeJoint::new("float", JointKind::Free);
+    let base = builder.attach(BodyIndex::GROUND, free, "base", BodyInertia::MASSLESS).unwrap();
+    let hinge = TreeJoint::new("hinge", JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+    let arm = rod();
+    builder.attach(base, hinge, "arm", arm).unwrap();
+    let tree = builder.build().unwrap();
+    let mut closed = ClosedTree::new(tree.clone());
+    let pin = [base, BodyIndex::GROUND].map(|body| BodyPoint::new(body, [0.0; 3]));
+    closed.close("pin", LoopClosure::Point { first: pin[0], second: pin[1] }).unwrap();
+    let q = [0.8, 0.6, 0.0, 0.0, 0.1, 0.2, 0.3, 0.4];
+    let (zeros, mut out) = ([0.0; 7], [0.0; 7]);
+    let error = closed.accelerations(&mut closed.workspace(), &q, &zeros, &zeros, 0.0, &mut out).unwrap_err();
+    let MultibodyError::TooLightBody { body, joint, mass, inertia } = &error else { panic!("{error}") };
+    assert_eq!((body.as_str(), joint.as_str()), ("base", "float"));
+    assert!(*mass <= 0.0 && inertia.abs() < 1e-12, "{error}");
+    assert!(error.to_string().contains("closures do not count here"), "{error}");
+    // A joint with nothing beyond it keeps its own error.
+    let mut builder = RigidTree::builder();
+    let free = TreeJoint::new("float", JointKind::Free);
+    builder.attach(BodyIndex::GROUND, free, "base", BodyInertia::MASSLESS).unwrap();
+    assert!(matches!(builder.build().unwrap_err(), MultibodyError::NoInertia { joint, .. } if joint == "float"));
 }

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use piola_multibody::{MultibodyError, Urdf, UrdfBase, UrdfFault, UrdfInertias, UrdfOptions, VisualShape};
+use piola_multibody::{FileFault, FileInertias, MultibodyError, Urdf, UrdfBase, UrdfOptions, VisualShape};
 use piola_testkit::{Tol, assert_close, golden};
 
 const ROUNDING: Tol = Tol::stated(1e-12, "the reference was computed in double precision");
-const AS_GIVEN: UrdfOptions = UrdfOptions { base: UrdfBase::Fixed, inertias: UrdfInertias::AsGiven };
+const AS_GIVEN: UrdfOptions = UrdfOptions { base: UrdfBase::Fixed, inertias: FileInertias::AsGiven };
 
 fn path() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../testdata/golden/ur5.urdf")
@@ -62,9 +62,9 @@ const JOINT: &str =
     "<joint name=\"j\" type=\"revolute\"><parent link=\"base\"/><child link=\"arm\"/><axis xyz=\"0 0 1\"/></joint>";
 const INERTIAL: &str = "<mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\"/>";
 
-fn fault(text: &str) -> (usize, UrdfFault) {
+fn fault(text: &str) -> (usize, FileFault) {
     match Urdf::parse(text, UrdfOptions::default()) {
-        Err(MultibodyError::Urdf { line, fault }) => (line, fault),
+        Err(MultibodyError::InFile { line, fault }) => (line, fault),
         other => panic!("not a fault at a line: {other:?}"),
     }
 }
@@ -73,30 +73,30 @@ fn fault(text: &str) -> (usize, UrdfFault) {
 fn files_are_refused_with_the_line_and_the_reason() {
     assert!(Urdf::parse(&robot(JOINT, INERTIAL), UrdfOptions::default()).is_ok());
     let planar = JOINT.replace("revolute", "planar");
-    let unsupported = |element: &str| UrdfFault::Unsupported { element: element.to_owned() };
+    let unsupported = |element: &str| FileFault::Unsupported { element: element.to_owned() };
     assert_eq!(fault(&robot(&planar, INERTIAL)), (8, unsupported("joint of type planar")));
     assert_eq!(fault(&robot(&format!("{JOINT}\n<sensor/>"), INERTIAL)), (9, unsupported("sensor")));
     let (line, found) = fault(&robot(JOINT, "<mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"3\"/>"));
-    assert!(line == 4 && matches!(found, UrdfFault::Invalid { .. }), "{line} {found}");
+    assert!(line == 4 && matches!(found, FileFault::Invalid { .. }), "{line} {found}");
     let (line, found) = fault(&robot(JOINT, "<mass value=\"0\"/><inertia ixx=\"0\" iyy=\"0\" izz=\"0\"/>"));
-    assert!(line == 4 && matches!(found, UrdfFault::Invalid { .. }), "{line} {found}");
+    assert!(line == 4 && matches!(found, FileFault::Invalid { .. }), "{line} {found}");
     let text = INERTIAL.replace("value=\"1\"", "value=\"one\"");
-    assert_eq!(fault(&robot(JOINT, &text)), (5, UrdfFault::NotNumbers { attribute: "value", text: "one".to_owned() }));
+    assert_eq!(fault(&robot(JOINT, &text)), (5, FileFault::NotNumbers { attribute: "value", text: "one".to_owned() }));
     let stray = JOINT.replace("link=\"arm\"", "link=\"leg\"");
-    assert_eq!(fault(&robot(&stray, INERTIAL)), (8, UrdfFault::NoSuchLink { link: "leg".to_owned() }));
+    assert_eq!(fault(&robot(&stray, INERTIAL)), (8, FileFault::NoSuchLink { link: "leg".to_owned() }));
     let second = JOINT.replace("name=\"j\"", "name=\"k\"");
     let twice = fault(&robot(&format!("{JOINT}\n{second}"), INERTIAL));
-    assert_eq!(twice, (9, UrdfFault::TwoParents { link: "arm".to_owned() }));
+    assert_eq!(twice, (9, FileFault::TwoParents { link: "arm".to_owned() }));
     let back = second
         .replace("link=\"arm\"", "link=\"x\"")
         .replace("link=\"base\"", "link=\"arm\"")
         .replace("\"x\"", "\"base\"");
-    assert_eq!(fault(&robot(&format!("{JOINT}\n{back}"), INERTIAL)).1, UrdfFault::NoRoot);
+    assert_eq!(fault(&robot(&format!("{JOINT}\n{back}"), INERTIAL)).1, FileFault::NoRoot);
     let roots = fault(&robot("", INERTIAL));
-    assert_eq!(roots, (3, UrdfFault::TwoRoots { first: "base".to_owned(), second: "arm".to_owned() }));
-    assert!(matches!(fault("<robot>\n<link>").1, UrdfFault::Syntax { .. }));
+    assert_eq!(roots, (3, FileFault::TwoRoots { first: "base".to_owned(), second: "arm".to_owned() }));
+    assert!(matches!(fault("<robot>\n<link>").1, FileFault::Syntax { .. }));
     let nameless = fault("<robot>\n<link/></robot>");
-    assert_eq!(nameless, (2, UrdfFault::Missing { what: "name", element: "link".to_owned() }));
+    assert_eq!(nameless, (2, FileFault::Missing { what: "name", element: "link".to_owned() }));
 }
 
 /// Pictures are no mechanics: a shape that is not known leaves the tree as it is. One that is known must have lengths.
@@ -115,11 +115,11 @@ fn visuals_without_a_known_shape_are_left_out_and_negative_lengths_refused() {
         assert_eq!((found.tree.bodies(), found.visuals.len()), (1, 1), "{left_out}");
         assert_eq!(found.visuals[0].shape, VisualShape::Sphere { radius: 0.5 });
     }
-    let negative = |attribute, value| (3, UrdfFault::Negative { attribute, value });
+    let negative = |attribute, value| (3, FileFault::Negative { attribute, value });
     assert_eq!(fault(&shape("<sphere radius=\"-1\"/>")), negative("radius", -1.0));
     assert_eq!(fault(&shape("<cylinder radius=\"1\" length=\"-2\"/>")), negative("length", -2.0));
     assert_eq!(fault(&shape("<box size=\"1 -3 1\"/>")), negative("size", -3.0));
-    assert!(matches!(fault(&shape("<sphere radius=\"wide\"/>")).1, UrdfFault::NotNumbers { .. }));
+    assert!(matches!(fault(&shape("<sphere radius=\"wide\"/>")).1, FileFault::NotNumbers { .. }));
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn what_is_no_file_and_files_that_are_too_long_are_refused() {
     let folder = std::env::temp_dir();
     for path in [folder.as_path(), Path::new("/dev/zero"), Path::new("none.urdf")] {
         let error = Urdf::read(path, AS_GIVEN).unwrap_err();
-        assert!(matches!(error, MultibodyError::UrdfFile { .. }), "{error}");
+        assert!(matches!(error, MultibodyError::UnreadableFile { .. }), "{error}");
     }
     let path = folder.join(format!("piola-long-{}.urdf", std::process::id()));
     let text = "<robot name=\"r\"><link name=\"post\"/></robot>";
@@ -138,7 +138,7 @@ fn what_is_no_file_and_files_that_are_too_long_are_refused() {
     let longer = Urdf::read(&path, AS_GIVEN);
     std::fs::remove_file(&path).unwrap();
     assert!(found.is_ok());
-    let expected = MultibodyError::UrdfFileTooLong { path: path.display().to_string(), limit: 16_777_216 };
+    let expected = MultibodyError::FileTooLong { path: path.display().to_string(), limit: 16_777_216 };
     assert_eq!(longer.unwrap_err(), expected);
 }
 
@@ -152,7 +152,7 @@ fn circles_beside_the_root_are_refused() {
         joint("x", "b", "c"),
         joint("y", "c", "b")
     );
-    assert_eq!(fault(&text).1, UrdfFault::Cycle { links: 2 });
+    assert_eq!(fault(&text).1, FileFault::Cycle { links: 2 });
 }
 
 #[test]
@@ -180,5 +180,5 @@ fn mimic_joints_are_named_and_free_bases_move() {
     // 1/(1 + 9)
     assert_close("mimic", &out, &[0.1, -0.3], Tol::ulps(8.0));
     let missing = Urdf::read(Path::new("nowhere.urdf"), AS_GIVEN).unwrap_err();
-    assert!(matches!(missing, MultibodyError::UrdfFile { path, .. } if path == "nowhere.urdf"));
+    assert!(matches!(missing, MultibodyError::UnreadableFile { path, .. } if path == "nowhere.urdf"));
 }

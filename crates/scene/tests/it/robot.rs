@@ -130,6 +130,31 @@ fn four_bar_starts_closed_and_stays_closed() {
     assert!(found.singular_positions.is_empty());
 }
 
+/// An MJCF file: its ball joint, its spring at rest where the elbow starts, its gear and its placement.
+#[test]
+fn arm_of_an_mjcf_file_starts_where_the_file_places_it_and_keeps_its_gear() {
+    let study = load("swing-arm.toml", &["output.samples=40", "time.end=1"]);
+    let plan = StudyPlan::of(&study).to_string();
+    for words in ["5 freedoms from swing-arm.xml", "1 condition, by multipliers", "are about a coordinate axis"] {
+        assert!(plan.contains(words), "{words} in {plan}");
+    }
+    let run = run(&study);
+    let found = motion(&run);
+    let bent = 20.0_f64.to_radians();
+    assert_close("start", &found.samples[0].q, &[1.0, 0.0, 0.0, 0.0, bent, 0.0], Tol::ulps(64.0));
+    let tol = Tol::stated(1e-7, "interpolation within steps of a tolerance of 1e-9");
+    for sample in &found.samples {
+        let gear = sample.q[5] + 0.5 * (sample.q[4] - bent);
+        assert_close_at_scale("gear", &[gear], &[0.0], 1.0, tol);
+    }
+    let last = found.samples.last().unwrap();
+    assert!((last.q[4] - bent).abs() > 0.01 && last.work < -1e-4);
+    assert_close_at_scale("balance", &[found.energy_error], &[0.0], 1.0, Tol::stated(1e-6, "steps of 1e-9"));
+    assert!(
+        mistake("swing-arm.toml", &["robot.base=free"]).contains("a free base besides the free joints of the file")
+    );
+}
+
 #[test]
 fn six_joint_arm_is_planned_and_its_locked_joint_stays() {
     let study = load("six-joint-arm.toml", &["output.samples=50"]);
@@ -147,17 +172,30 @@ fn six_joint_arm_is_planned_and_its_locked_joint_stays() {
     }
 }
 
+/// The arm on a wall that is free: without a mass of its own the wall could turn about the hinge alone, and is named.
 #[test]
 fn free_root_falls_as_a_stone() {
     let settings = ["robot.base=free", "robot.velocity=[1, 0, 2] m/s", "time.end=1", "integrator.tolerance=1e-12"];
-    let study = load("two-link-arm.toml", &[&settings[..], &["drive.elbow.angle=0"]].concat());
+    let settings = [&settings[..], &["drive.elbow.angle=0"]].concat();
+    let light = studies::run(&load("two-link-arm.toml", &settings), |_| ControlFlow::Continue(()));
+    let Outcome::Failed(reason) = light.outcome else { panic!("a wall without mass") };
+    assert!(reason.contains("a motion of body `wall` by joint `ground to wall` meets no inertia"), "{reason}");
+    let folder = folder("stone");
+    let inertial = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>";
+    let heavy = format!("<link name=\"wall\">{inertial}</link>");
+    let text = |name: &str| std::fs::read_to_string(scene(name)).unwrap();
+    let robot = text("data/two-link-arm.urdf").replace("<link name=\"wall\"/>", &heavy);
+    std::fs::write(folder.join("arm.urdf"), robot).unwrap();
+    let of_stone = text("two-link-arm.toml").replace("data/two-link-arm.urdf", "arm.urdf");
+    std::fs::write(folder.join("stone.toml"), of_stone).unwrap();
+    let settings: Vec<String> = settings.iter().map(ToString::to_string).collect();
+    let Ok(SceneFile::Study(study)) = SceneFile::load(&folder.join("stone.toml"), &settings) else { panic!("a study") };
     let run = run(&study);
     let last = motion(&run).samples.last().unwrap();
     let tol = Tol::stated(1e-9, "steps of a tolerance of 1e-12");
     assert_close("position", &last.q[4..7], &[1.0, 0.0, 2.0 - 0.5 * 9.81], tol);
 }
 
-/// An empty folder for the files of a test.
 fn folder(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("piola-{name}-{}", std::process::id()));
     let _ = std::fs::remove_dir_all(&folder);
@@ -297,7 +335,7 @@ fn plan_tells_how_far_closures_move_the_start() {
 #[test]
 fn mistakes_of_robots_are_named_with_their_place_and_what_is_valid() {
     let cases: [(&str, &[&str], &[&str]); 11] = [
-        ("two-link-arm.toml", &["robot.file=data/none.urdf"], &["none.urdf", "a URDF file"]),
+        ("two-link-arm.toml", &["robot.file=data/none.urdf"], &["none.urdf", "a URDF or MJCF file"]),
         ("two-link-arm.toml", &["robot.file=data/double-pendulum.csv"], &["line 1"]),
         ("two-link-arm.toml", &["drive.elbow.displacement=1"], &["`displacement` of the joint `elbow`", "angle, rate"]),
         ("six-joint-arm.toml", &["drive.elbow.angle=4"], &["starts at 4, outside its limits", "from -3.14"]),

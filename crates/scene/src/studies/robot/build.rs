@@ -3,8 +3,8 @@
 use piola_document::{Mistake, Record, words};
 use piola_kinematics::Attitude;
 use piola_multibody::{
-    BodyIndex, BodyPoint, ClosedTree, JointKind, JointPlace, LoopClosure, MultibodyError, Urdf, UrdfBase, UrdfInertias,
-    UrdfOptions,
+    BodyIndex, BodyPoint, ClosedTree, FileInertias, JointKind, JointPlace, LoopClosure, MultibodyError, RobotFile,
+    UrdfBase, UrdfOptions,
 };
 
 use super::{JointDrive, RobotStudy};
@@ -31,19 +31,16 @@ impl Builder<'_> {
         let file = self.document.folder().join(table.text("file")?);
         let options = UrdfOptions {
             base: if table.text("base")? == "free" { UrdfBase::Free } else { UrdfBase::Fixed },
-            inertias: if table.text("inertias")? == "checked" { UrdfInertias::Checked } else { UrdfInertias::AsGiven },
+            inertias: if table.text("inertias")? == "checked" { FileInertias::Checked } else { FileInertias::AsGiven },
         };
-        let urdf = Urdf::read(&file, options);
-        let mut urdf =
-            self.sound(table, "file", urdf, "a URDF file whose joints form a tree, relative to the scene")?;
+        let robot = RobotFile::read(&file, options);
+        let robot = self.sound(table, "file", robot, "a URDF or MJCF file, relative to the scene")?;
+        let (mut closed, mut q) = (robot.closed, robot.home);
         let gravity = table.vector("gravity")?;
-        let set = urdf.tree.set_gravity(gravity);
+        let set = closed.set_gravity(gravity);
         self.sound(table, "gravity", set, "finite numbers")?;
-        let closed = urdf.with_mimics();
-        let mut closed = self.sound(table, "file", closed, "mimic joints that name joints of one coordinate")?;
         let tree = closed.tree().clone();
-        let (mut q, mut v) = (vec![0.0; tree.coordinates()], vec![0.0; tree.freedoms()]);
-        tree.neutral_configuration(&mut q).ok()?;
+        let mut v = vec![0.0; tree.freedoms()];
         if options.base == UrdfBase::Free {
             let [roll, pitch, yaw] = table.vector("attitude")?;
             let turn = Attitude::about_z(yaw).product(Attitude::about_y(pitch)).product(Attitude::about_x(roll));
@@ -95,7 +92,7 @@ impl Builder<'_> {
         let frictions = tree.joints().iter().filter(|place| 0.0 < place.joint.friction);
         Some(RobotStudy {
             file,
-            visuals: urdf.visuals,
+            visuals: robot.visuals,
             time: time?,
             tolerance: integrator.tolerance.unwrap_or(1e-9),
             samples,
@@ -158,7 +155,7 @@ impl Builder<'_> {
             );
         }
         let either = |keys: [&str; 2]| keys.into_iter().find(|key| record.has(key)).and_then(|key| record.number(key));
-        q[first_coordinate] = either(["angle", "displacement"]).unwrap_or(0.0);
+        q[first_coordinate] = either(["angle", "displacement"]).unwrap_or(q[first_coordinate]);
         v[first_freedom] = either(["rate", "speed"]).unwrap_or(0.0);
         let (at, [low, high]) = (q[first_coordinate], joint.limits);
         if at < low || high < at {
@@ -175,8 +172,9 @@ impl Builder<'_> {
         let drive = &mut drives[first_freedom];
         drive.effort = either(["torque", "force"]).unwrap_or(0.0);
         drive.damping = if record.has("damping") { record.number("damping")? } else { drive.damping };
-        drive.stiffness = record.number("stiffness")?;
-        drive.rest = record.number("rest")?;
+        if record.has("stiffness") || record.has("rest") {
+            (drive.stiffness, drive.rest) = (record.number("stiffness")?, record.number("rest")?);
+        }
         if record.flag("locked")? {
             if 0.0 < v[first_freedom].abs() {
                 let key = if record.has("rate") { "rate" } else { "speed" };
@@ -239,7 +237,7 @@ impl Builder<'_> {
     }
 }
 
-/// The freedoms as the file drives them: with its damping.
+/// The freedoms as the file drives them: with its dampers and springs.
 fn undriven(tree: &piola_multibody::RigidTree) -> Vec<JointDrive> {
     let mut drives = Vec::new();
     for place in tree.joints() {
@@ -248,8 +246,8 @@ fn undriven(tree: &piola_multibody::RigidTree) -> Vec<JointDrive> {
             coordinate: single.then_some(place.first_coordinate + k),
             effort: 0.0,
             damping: place.joint.damping,
-            stiffness: 0.0,
-            rest: 0.0,
+            stiffness: place.joint.stiffness,
+            rest: place.joint.rest,
             limits: place.joint.limits,
         }));
     }

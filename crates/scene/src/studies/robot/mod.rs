@@ -1,4 +1,4 @@
-//! The motion of a tree of rigid bodies from a URDF file.
+//! The motion of a tree of rigid bodies from a URDF or MJCF file.
 
 mod build;
 mod figure;
@@ -99,9 +99,13 @@ impl RobotStudy {
         );
         plan.reason = "articulated bodies: each evaluation takes time in proportion to the joints".to_string();
         plan.compute("accelerations", format!("{} links behind elementary joints", tree.links()));
-        let merged = tree.bodies() - tree.joints().iter().filter(|place| 0 < place.joint.kind.freedoms()).count();
-        if 0 < merged {
-            plan.skip("fixed joints", format!("merged when the tree is built: {merged}"));
+        let built = tree.plan();
+        if !built.merged.is_empty() {
+            plan.skip("fixed joints", format!("merged when the tree is built: {}", built.merged.len()));
+        }
+        if 0 < built.aligned {
+            let what = format!("{} of {} turns are about a coordinate axis", built.aligned, built.turns);
+            plan.skip("products of matrices", what);
         }
         if self.closed.conditions() == 0 {
             plan.skip("closures", "no [[closure]], mimic joint or locked joint");

@@ -6,13 +6,11 @@ use piola_kinematics::Attitude;
 ///
 /// # Example
 /// ```
-/// use piola_multibody::{Urdf, UrdfOptions, VisualShape};
-/// let text = r#"<robot name="post"><link name="post"><visual><origin xyz="0 0 1"/>
-///   <geometry><cylinder radius="0.1" length="2"/></geometry></visual></link></robot>"#;
-/// let robot = Urdf::parse(text, UrdfOptions::default())?;
-/// assert_eq!(robot.visuals[0].shape, VisualShape::Cylinder { radius: 0.1, length: 2.0 });
-/// assert_eq!((robot.visuals[0].body.as_str(), robot.visuals[0].origin[2]), ("post", 1.0));
-/// # Ok::<(), piola_multibody::MultibodyError>(())
+/// use piola_kinematics::Attitude;
+/// use piola_multibody::{Visual, VisualShape};
+/// let shape = VisualShape::Cylinder { radius: 0.1, length: 2.0 };
+/// let post = Visual { body: "post".to_owned(), origin: [0.0, 0.0, 1.0], attitude: Attitude::identity(), shape };
+/// assert_eq!(post.origin[2], 1.0);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Visual {

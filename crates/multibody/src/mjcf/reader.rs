@@ -1,0 +1,50 @@
+//! What is read of a file so far.
+
+use super::element::Classes;
+use super::place::Place;
+use super::settings::Settings;
+use super::{MjcfOptions, SkippedElement};
+use crate::error::{FileFault, MultibodyError};
+use crate::files::{Element, Visual, fault};
+use crate::loops::BodyPoint;
+use crate::tree::{BodyIndex, FrameIndex, RigidTreeBuilder};
+
+/// A body that was attached, and where the file places it.
+pub(super) struct Placed {
+    pub(super) name: String,
+    pub(super) index: BodyIndex,
+    /// In space, in the configuration of the file.
+    pub(super) place: Place,
+}
+
+/// What is read so far.
+pub(super) struct Reader<'a> {
+    pub(super) options: MjcfOptions,
+    pub(super) settings: Settings,
+    pub(super) classes: Classes<'a>,
+    pub(super) builder: RigidTreeBuilder,
+    /// The ground is the first.
+    pub(super) bodies: Vec<Placed>,
+    pub(super) sites: Sites,
+    pub(super) home: Vec<f64>,
+    pub(super) visuals: Vec<Visual>,
+    pub(super) skipped: Vec<SkippedElement>,
+    /// Names and files of meshes.
+    pub(super) meshes: Vec<(String, String)>,
+}
+
+/// The named sites.
+#[derive(Default)]
+pub(super) struct Sites {
+    pub(super) sites: Vec<(String, BodyPoint, FrameIndex)>,
+}
+
+impl Sites {
+    pub(super) fn add(&mut self, name: &str, body: BodyIndex, frame: FrameIndex, at: [f64; 3]) {
+        self.sites.push((name.to_owned(), BodyPoint::new(body, at), frame));
+    }
+}
+
+pub(super) fn unsupported(element: Element<'_>) -> MultibodyError {
+    fault(element, FileFault::Unsupported { element: element.tag_name().name().to_owned() })
+}
