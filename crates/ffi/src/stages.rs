@@ -7,11 +7,12 @@
 //! F                                  → P, ∂P/∂F      linear elasticity
 //! P, ∂P/∂F → T, S; ∂S/∂E, c/J, Jaumann's tangent     all
 //! ```
-//! A stage is compiled once for each set of instructions. One kernel for each law and request, with the composition in each,
-//! would be five times as much code. Numbers between stages stay in the first caches.
+//! A stage is compiled once for each set of instructions, so that the composition is not compiled into a kernel for each law and
+//! request. At most [`MOST`] blocks pass together: their numbers, up to 66 kB, stay in the second-level cache.
 
 use piola::continuum::DeformationGradient;
-use piola::laws::kinds::{self, LawOfInvariants, LawOfStrain, LawOfStretches};
+use piola::laws::internal::composition;
+use piola::laws::kinds::{LawOfInvariants, LawOfStrain, LawOfStretches};
 use piola::numerics::{LaneKernel, Lanes, Mask, Real, dispatch_lanes};
 use piola::solids::internal::composition::{composed, in_frames};
 use piola::solids::internal::{first_piola_numbers, packed};
@@ -126,7 +127,7 @@ impl<'a> Kind<'a> {
         }
     }
 
-    /// P and a number that is zero where the law has certainly an answer: ten numbers in `answers`.
+    /// P and a number that is zero where the law certainly has an answer: ten numbers a block in `answers`.
     pub(crate) fn stress(&self, points: usize, f: &[[Number; 9]], memory: [&mut [Number]; 3]) {
         let [first, second, answers] = memory;
         match self {
@@ -171,7 +172,7 @@ impl<'a> Kind<'a> {
     }
 }
 
-/// Zero in lanes that hold a deformation of which the law has certainly an answer, NaN in others.
+/// Zero in lanes that hold a deformation for which the law certainly has an answer, NaN in others.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn certain<T: Real>(jacobian: T, checked: Result<(), SolidsError>) -> T {
     let accepted = match checked {
@@ -287,7 +288,7 @@ fn with_curvatures<T: Real>(s: &Slopes<T>, c: &Curvatures<T>, certain: T) -> [T;
 
 stages! {
     InvariantsOf [0 => 6] |_law, f, _given| {
-        let Invariants { first, second, change, jacobian, first_whole, second_whole } = kinds::composition::invariants(f);
+        let Invariants { first, second, change, jacobian, first_whole, second_whole } = composition::invariants(f);
         [first, second, change, jacobian, first_whole, second_whole]
     };
     SlopesOf<'_> [6 => 5] |law, f, given| {
@@ -301,11 +302,11 @@ stages! {
     };
     StressOfSlopes [5 => 10] |_law, f, given| {
         let (slopes, certain) = apart(&given);
-        and_last(&kinds::composition::first_piola(f, slopes), certain)
+        and_last(&composition::first_piola(f, slopes), certain)
     };
     BothOfCurvatures [11 => 55] |_law, f, given| {
         let (slopes_and_curvatures, certain) = apart(&given);
-        packed::with_one_more(kinds::composition::first_piola_and_upper_triangle(f, slopes_and_curvatures), certain)
+        packed::with_one_more(composition::first_piola_and_upper_triangle(f, slopes_and_curvatures), certain)
     };
     SecondPiolaOf<'_> [0 => 7] |law, f, _given| {
         and_last(&law.0.second_piola(f).0.components, certain(jacobian(f), law.0.check(f)))
