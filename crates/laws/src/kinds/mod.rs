@@ -3,8 +3,8 @@
 //! [`AnySolid::visit`] calls a visitor with the type of each law, so that the compiler makes a kernel for each law, request and
 //! set of instructions: twenty-nine for each request. [`visit`] calls it with the kind of the law: the formula that makes stress and
 //! tangent of what a law gives is compiled once for all laws of a kind, twelve for each request. Laws of straight code run
-//! faster in lanes by themselves: `visit` passes them as they are. Those behind a semicolon below are laws of a kind all the same:
-//! `of` takes them.
+//! faster in lanes by themselves: `visit` passes them as they are. Some of them are laws of a kind as well: they
+//! stand behind a semicolon in the table, and `LawOfInvariants::of` or `LawOfStrain::of` takes them.
 //!
 //! | kind | laws | what a law gives |
 //! |---|---|---|
