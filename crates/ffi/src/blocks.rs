@@ -1,4 +1,4 @@
-//! Numbers of points side by side to blocks, and back.
+//! Copies between points, whose numbers stand one after the other, and blocks, in which each number stands for eight points.
 
 use piola::numerics::{LaneKernel, Lanes, dispatch_lanes};
 

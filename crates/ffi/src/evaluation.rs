@@ -94,7 +94,7 @@ struct Memory<'a> {
     converted: &'a mut [Number],
 }
 
-/// Runs `$body` with memory for as many blocks, of as many numbers each.
+/// Runs `$body` with memory for `$blocks` blocks of deformations and of the numbers that each buffer holds a block.
 macro_rules! with_memory {
     ($blocks:expr, [$first:literal, $second:literal, $answers:literal, $converted:literal], |$memory:ident| $body:expr) => {{
         let zero = [0.0; WIDTH];
@@ -152,8 +152,8 @@ impl<'a> Evaluation<'a> {
         self.part(part)
     }
 
-    /// With memory for what is wanted: few points do not pay for many blocks.
-    #[expect(clippy::large_stack_arrays, reason = "61 kB, and nothing is allocated")]
+    /// With memory for what is wanted. One block suffices for few points, which then clear little memory.
+    #[expect(clippy::large_stack_arrays, reason = "66 kB, and nothing is allocated")]
     fn part(&self, part: Part<'_>) -> Bad {
         match (self.wanted.tangent.is_some(), part.f.len() <= WIDTH) {
             (false, false) => with_memory!(MOST, [7, 5, 10, 6], |memory| self.blocks(part, memory)),
@@ -193,47 +193,59 @@ impl<'a> Evaluation<'a> {
             self.kind.stress(points, f, [memory.first, memory.second, memory.answers]);
             10
         };
-        let mut refused = [false; MOST * WIDTH];
-        for (index, (f, refused)) in part.f.iter().zip(&mut refused).enumerate() {
-            let answer = &memory.answers[index / WIDTH * stride..][..stride];
-            let (stress, certain) = (answer[0][index % WIDTH], answer[stride - 1][index % WIDTH]);
-            if !(stress + certain).is_finite() {
-                let checked = deformation(self.law, f).and_then(|_| {
-                    if stress.is_finite() { Ok(()) } else { Err(SolidsError::Overflow { answer: "stress" }) }
-                });
-                if let Err(error) = checked {
-                    bad.note(part.first + index, error);
-                    *refused = true;
-                }
-            }
+        // Of whole blocks, before conversions of linear elasticity overwrite P.
+        let mut doubts = [[0.0; WIDTH]; MOST];
+        for (doubt, answer) in doubts.iter_mut().zip(memory.answers.chunks(stride)).take(blocks) {
+            add(doubt, &answer[0]);
+            add(doubt, &answer[stride - 1]);
         }
         if let Some(measure) = self.wanted.stress {
-            self.stress(measure, points, stride, memory, part.stresses);
+            let numbers = self.stress(measure, points, stride, memory, part.stresses);
+            add_all(&mut doubts[..blocks], numbers);
         }
         if let (Some((measure, _)), Some(places)) = (self.wanted.tangent, places) {
-            self.tangent(measure, places, points, memory, part.tangents);
+            let numbers = self.tangent(measure, places, points, memory, part.tangents);
+            add_all(&mut doubts[..blocks], numbers);
         }
         let numbers = self.numbers();
-        for index in (0..points).filter(|index| refused[*index]) {
-            if let Some(stress) = part.stresses.get_mut(index) {
-                *stress = [f64::NAN; 9];
+        for index in (0..points).filter(|index| !doubts[index / WIDTH][index % WIDTH].is_finite()) {
+            let stress = part.stresses.get_mut(index).map_or(&mut [][..], |stress| &mut stress[..]);
+            let tangent = &mut part.tangents[numbers * index..][..numbers];
+            if let Err(error) = self.check(&part.f[index], stress, tangent) {
+                bad.note(part.first + index, error);
+                stress.fill(f64::NAN);
+                tangent.fill(f64::NAN);
             }
-            part.tangents[numbers * index..][..numbers].fill(f64::NAN);
         }
     }
 
-    fn stress(
+    /// Refuses what is no deformation, what the law refuses, and numbers that are not finite.
+    #[cold]
+    fn check(&self, f: &[f64; 9], stress: &[f64], tangent: &[f64]) -> Result<(), SolidsError> {
+        deformation(self.law, f)?;
+        for (answer, numbers) in [("stress", stress), ("tangent", tangent)] {
+            if !numbers.iter().all(|x| x.is_finite()) {
+                return Err(SolidsError::Overflow { answer });
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the stresses; returns the blocks of numbers that they were taken from.
+    fn stress<'m>(
         &self,
         measure: StressMeasure,
         points: usize,
         stride: usize,
-        memory: &mut Memory<'_>,
+        memory: &'m mut Memory<'_>,
         out: &mut [[f64; 9]],
-    ) {
-        if measure == StressMeasure::FirstPiola || self.is_linear() {
-            return to_points(memory.answers, stride, &BY_ROWS, out);
-        }
+    ) -> &'m [Number] {
         let blocks = points.div_ceil(WIDTH);
+        if measure == StressMeasure::FirstPiola || self.is_linear() {
+            let answers = &memory.answers[..stride * blocks];
+            to_points(answers, stride, &BY_ROWS, out);
+            return answers;
+        }
         // P alone, as conversions take it.
         let stress = if stride == 10 {
             &*memory.answers
@@ -249,23 +261,27 @@ impl<'a> Evaluation<'a> {
             run::<_, 10, 6>(&SecondPiolaOfFirstPiola, points, f, stress, converted);
         }
         to_points(converted, 6, &ALL_NINE, out);
+        &memory.converted[..6 * blocks]
     }
 
-    fn tangent(
+    /// Writes the tangents; returns the blocks of numbers that they were taken from.
+    fn tangent<'m>(
         &self,
         measure: TangentMeasure,
         places: &[usize; 36],
         points: usize,
-        memory: &mut Memory<'_>,
+        memory: &'m mut Memory<'_>,
         out: &mut [f64],
-    ) {
-        if measure == TangentMeasure::FirstPiola {
-            return to_points(memory.answers, 55, &SQUARE, out.as_chunks_mut().0);
-        }
+    ) -> &'m [Number] {
         let blocks = points.div_ceil(WIDTH);
+        if measure == TangentMeasure::FirstPiola {
+            let answers = &memory.answers[..55 * blocks];
+            to_points(answers, 55, &SQUARE, out.as_chunks_mut().0);
+            return answers;
+        }
         let f = &mut memory.deformations[..blocks];
         if self.is_linear() {
-            // ∂σ/∂ε is ∂P/∂F itself: of F = 1, and there is no stress to take off.
+            // ∂σ/∂ε is ∂P/∂F itself: the conversion is that of F = 1 without a stress.
             for block in &mut *f {
                 *block = core::array::from_fn(|k| [if k % 4 == 0 { 1.0 } else { 0.0 }; WIDTH]);
             }
@@ -277,8 +293,29 @@ impl<'a> Evaluation<'a> {
         match measure {
             TangentMeasure::Truesdell => run::<_, 55, 21>(&TruesdellOfFirstPiola, points, f, answers, converted),
             TangentMeasure::Jaumann => run::<_, 55, 21>(&JaumannOfFirstPiola, points, f, answers, converted),
-            _ => run::<_, 55, 21>(&MaterialOfFirstPiola, points, f, answers, converted),
+            TangentMeasure::Material | TangentMeasure::FirstPiola => {
+                run::<_, 55, 21>(&MaterialOfFirstPiola, points, f, answers, converted);
+            }
         }
         to_points(converted, 21, places, out.as_chunks_mut().0);
+        &memory.converted[..21 * blocks]
+    }
+}
+
+/// Adds the numbers of each block to its sums: a sum is not finite where a number of its point is not.
+fn add_all(sums: &mut [Number], numbers: &[Number]) {
+    let stride = numbers.len() / sums.len();
+    for (sum, numbers) in sums.iter_mut().zip(numbers.chunks_exact(stride)) {
+        let mut total = *sum;
+        for number in numbers {
+            add(&mut total, number);
+        }
+        *sum = total;
+    }
+}
+
+fn add(sum: &mut Number, number: &Number) {
+    for (sum, number) in sum.iter_mut().zip(number) {
+        *sum += number;
     }
 }

@@ -1,7 +1,7 @@
 //! Stresses and tangents of a law at many points, from and to the caller's memory.
 //!
 //! Points pass through the stages of a computation in lanes, block by block: the law, P and the upper triangle of ∂P/∂F,
-//! other measures. Nothing is allocated unless points are bad.
+//! other measures. An evaluation allocates nothing; with feature `rayon`, the first large batch starts the threads.
 //!
 //! ```
 //! use piola::solids::SaintVenantKirchhoff;
@@ -34,8 +34,8 @@ pub use crate::measures::{StressMeasure, TangentMeasure, VoigtNumbering};
 ///
 /// # Errors
 /// [`FfiError::WrongLength`] unless `out` has as many points as `f`, before anything is computed;
-/// [`FfiError::BadPoints`] where F is not finite, 0 < det F fails or the law has no answer: the numbers of these points are
-/// NaN, those of all others are written.
+/// [`FfiError::BadPoints`] where F is not finite, 0 < det F fails, the law has no answer or a number of the result overflows: the
+/// numbers of these points are NaN, those of all others are written.
 ///
 /// # Accuracy
 /// That of the law's P; T and S add 8 ulp of |P| |F|/J and of |F⁻¹| |P|.

@@ -7,14 +7,16 @@
 //! F                                  → P, ∂P/∂F      linear elasticity
 //! P, ∂P/∂F → T, S; ∂S/∂E, c/J, Jaumann's tangent     all
 //! ```
-//! A stage is compiled once for each set of instructions. One kernel for each law and request, with the composition in each,
-//! would be five times as much code. Numbers between stages stay in the first caches.
+//! A stage is compiled once for each set of instructions, so that the composition is not compiled into a kernel for each law and
+//! request. At most [`MOST`] blocks pass together: their numbers, up to 66 kB, stay in the second-level cache.
 
 use piola::continuum::DeformationGradient;
-use piola::laws::kinds::{self, LawOfInvariants, LawOfStrain, LawOfStretches};
+use piola::laws::internal::composition;
+use piola::laws::kinds::{LawOfInvariants, LawOfStrain, LawOfStretches};
 use piola::numerics::{LaneKernel, Lanes, Mask, Real, dispatch_lanes};
 use piola::solids::internal::composition::{composed, in_frames};
-use piola::solids::internal::{first_piola_numbers, packed};
+use piola::solids::internal::first_piola_numbers;
+use piola::solids::internal::packed::{self, joined};
 use piola::solids::invariant::{Curvatures, InvariantEnergy, Invariants, Slopes};
 use piola::solids::stretch::StretchEnergy;
 use piola::solids::{
@@ -126,7 +128,7 @@ impl<'a> Kind<'a> {
         }
     }
 
-    /// P and a number that is zero where the law has certainly an answer: ten numbers in `answers`.
+    /// P and a number that is zero where the law certainly has an answer: ten numbers a block in `answers`.
     pub(crate) fn stress(&self, points: usize, f: &[[Number; 9]], memory: [&mut [Number]; 3]) {
         let [first, second, answers] = memory;
         match self {
@@ -171,7 +173,7 @@ impl<'a> Kind<'a> {
     }
 }
 
-/// Zero in lanes that hold a deformation of which the law has certainly an answer, NaN in others.
+/// Zero in lanes that hold a deformation for which the law certainly has an answer, NaN in others.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn certain<T: Real>(jacobian: T, checked: Result<(), SolidsError>) -> T {
     let accepted = match checked {
@@ -188,18 +190,6 @@ fn certain<T: Real>(jacobian: T, checked: Result<(), SolidsError>) -> T {
 fn refused(error: SolidsError) -> bool {
     core::hint::black_box(error);
     false
-}
-
-/// K numbers and one more.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn and_last<T: Real, const K: usize, const L: usize>(numbers: &[T; K], last: T) -> [T; L] {
-    let mut all = [last; L];
-    let mut k = 0;
-    while k < K {
-        all[k] = numbers[k];
-        k += 1;
-    }
-    all
 }
 
 /// The first K numbers and the last.
@@ -287,12 +277,12 @@ fn with_curvatures<T: Real>(s: &Slopes<T>, c: &Curvatures<T>, certain: T) -> [T;
 
 stages! {
     InvariantsOf [0 => 6] |_law, f, _given| {
-        let Invariants { first, second, change, jacobian, first_whole, second_whole } = kinds::composition::invariants(f);
+        let Invariants { first, second, change, jacobian, first_whole, second_whole } = composition::invariants(f);
         [first, second, change, jacobian, first_whole, second_whole]
     };
     SlopesOf<'_> [6 => 5] |law, f, given| {
         let certain = certain(given[3], InvariantEnergy::check(law.0, f));
-        and_last(&slopes(&law.0.slopes(&invariants_of(given))), certain)
+        joined(&slopes(&law.0.slopes(&invariants_of(given))), &[certain])
     };
     CurvaturesOf<'_> [6 => 11] |law, f, given| {
         let certain = certain(given[3], InvariantEnergy::check(law.0, f));
@@ -301,33 +291,24 @@ stages! {
     };
     StressOfSlopes [5 => 10] |_law, f, given| {
         let (slopes, certain) = apart(&given);
-        and_last(&kinds::composition::first_piola(f, slopes), certain)
+        joined(&composition::first_piola(f, slopes), &[certain])
     };
     BothOfCurvatures [11 => 55] |_law, f, given| {
         let (slopes_and_curvatures, certain) = apart(&given);
-        packed::with_one_more(kinds::composition::first_piola_and_upper_triangle(f, slopes_and_curvatures), certain)
+        packed::with_one_more(composition::first_piola_and_upper_triangle(f, slopes_and_curvatures), certain)
     };
     SecondPiolaOf<'_> [0 => 7] |law, f, _given| {
-        and_last(&law.0.second_piola(f).0.components, certain(jacobian(f), law.0.check(f)))
+        joined(&law.0.second_piola(f).0.components, &[certain(jacobian(f), law.0.check(f))])
     };
     MaterialOf<'_> [0 => 28] |law, f, _given| {
         let (stress, tangent) = law.0.second_piola_and_tangent(f);
-        let mut all = [certain(jacobian(f), law.0.check(f)); 28];
-        let mut k = 0;
-        while k < 6 {
-            all[k] = stress.0.components[k];
-            k += 1;
-        }
-        while k < 27 {
-            all[k] = tangent.0.components[k - 6];
-            k += 1;
-        }
-        all
+        let both: [T; 27] = joined(&stress.0.components, &tangent.0.components);
+        joined(&both, &[certain(jacobian(f), law.0.check(f))])
     };
     StressOfSecondPiola [7 => 10] |_law, f, given| {
         let (components, certain) = apart(&given);
         let stress = product(gradient(f), Symmetric { components }.rows());
-        and_last(&packed::of_stress(stress), certain)
+        joined(&packed::of_stress(stress), &[certain])
     };
     BothOfMaterial [28 => 55] |_law, f, given| {
         let mut components = [given[0]; 21];
@@ -342,11 +323,11 @@ stages! {
     };
     StressOf<'_, L>, [L: Hyperelastic] [0 => 10] |law, f, _given| {
         let stress = packed::of_stress(law.0.first_piola(f).rows());
-        and_last(&stress, certain(jacobian(f), law.0.check(f)))
+        joined(&stress, &[certain(jacobian(f), law.0.check(f))])
     };
     FramesOf<'_, L>, [L: StretchEnergy] [0 => 34] |law, f, _given| {
         let certain = certain(jacobian(f), law.0.check(f));
-        and_last(&in_frames(law.0, f), certain)
+        joined(&in_frames(law.0, f), &[certain])
     };
     BothOfFrames [34 => 55] |_law, _f, given| {
         let (numbers, certain) = apart(&given);
@@ -357,7 +338,7 @@ stages! {
             Linear::Isotropic(law) => law.first_piola(f),
             Linear::Anisotropic(law) => law.first_piola(f),
         };
-        and_last(&packed::of_stress(stress.rows()), certain(jacobian(f), Ok(())))
+        joined(&packed::of_stress(stress.rows()), &[certain(jacobian(f), Ok(()))])
     };
     Linear<'_> [0 => 55] |law, f, _given| {
         let both = match law {

@@ -8,6 +8,14 @@ pub mod algebra;
 pub mod coupled;
 mod error;
 mod examine;
+#[doc(hidden)]
+pub mod internal {
+    //! Functions for Piola's other crates only.
+    /// Stress and tangent of slopes and curvatures.
+    pub mod composition {
+        pub use crate::kinds::composition::*;
+    }
+}
 pub mod invariants;
 pub mod kinds;
 mod methods;

@@ -11,8 +11,10 @@ pub use crate::isochoric_factor::Unimodular;
 pub use crate::ogden::terms::ogden_term;
 /// Parts of stress and tangent, for laws whose answers are put together elsewhere.
 pub mod composition {
-    pub use crate::invariant::{InvariantKinematics, square, sum_of_terms};
-    pub use crate::stretch::{composed, in_frames};
+    pub use crate::invariant::kinematics::InvariantKinematics;
+    pub use crate::invariant::straight::square;
+    pub use crate::invariant::tangent::sum_of_terms;
+    pub use crate::stretch::frames::{composed, in_frames};
 }
 /// P and ∂P/∂F as numbers one after the other.
 pub mod packed {

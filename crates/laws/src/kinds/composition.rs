@@ -1,8 +1,8 @@
-//! Stress and tangent of slopes and curvatures that are given: one composition for all laws of I₁, I₂ and J.
+//! P and ∂P/∂F of given slopes and curvatures of W: one composition for all laws of I₁, I₂ and J.
 //!
-//! A library that offers many laws computes the invariants of its points, then what a law says of them, then this: laws are
-//! small kernels, and the composition is compiled once instead of into each. It is straight code over numbers, and has the
-//! bits of the formulas of the laws themselves: of one that does not depend on I₂ or has no curvature, terms are zero.
+//! A library that offers many laws computes in three passes: the invariants, slopes and curvatures of the law, this composition. It is
+//! compiled once instead of into the kernel of each law. The formulas are those of the laws themselves; terms of a law that does not
+//! depend on I₂, or has no curvature, are zero.
 
 use piola_continuum::Deformation;
 use piola_continuum::internal::strain::MODERATE;

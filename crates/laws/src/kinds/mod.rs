@@ -3,7 +3,8 @@
 //! [`AnySolid::visit`] calls a visitor with the type of each law, so that the compiler makes a kernel for each law, request and
 //! set of instructions: twenty-nine for each request. [`visit`] calls it with the kind of the law: the formula that makes stress and
 //! tangent of what a law gives is compiled once for all laws of a kind, twelve for each request. Laws of straight code run
-//! faster in lanes by themselves: `visit` passes them as they are, although they are laws of a kind as well.
+//! faster in lanes by themselves: `visit` passes them as they are. Some of them are laws of a kind as well: they
+//! stand behind a semicolon in the table, and `LawOfInvariants::of` or `LawOfStrain::of` takes them.
 //!
 //! | kind | laws | what a law gives |
 //! |---|---|---|
@@ -12,13 +13,12 @@
 //! | [`LawOfStrain`] | Holzapfel–Gasser–Ogden, reinforced neo-Hookean; St. Venant–Kirchhoff, that of any symmetry, Fung | S and ∂S/∂E |
 //! | the law itself | all others | |
 //!
-//! What a law of a kind gives is short. A program that offers all laws may compute it in a pass of its own and put stress and tangent
-//! together in a second one, compiled once: `piola-ffi` does.
+//! The code of what a law of a kind gives is short. A program that offers all laws may run it in a first pass and put stress and tangent
+//! together in a second one, which is compiled once for the kind. `piola-ffi` does so.
 
 use piola_solids::{AnySolid, SolidVisitor};
 
-#[doc(hidden)]
-pub mod composition;
+pub(crate) mod composition;
 mod invariants;
 mod strain;
 mod stretches;

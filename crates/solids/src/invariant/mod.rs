@@ -21,19 +21,14 @@ use crate::known_volume::KnownVolume;
 use crate::packed;
 
 mod energy;
-mod kinematics;
+pub(crate) mod kinematics;
 mod measures;
-mod straight;
-mod tangent;
+pub(crate) mod straight;
+pub(crate) mod tangent;
 
 pub use energy::{Curvatures, InvariantEnergy, Invariants, Slopes, invariants_of};
-#[doc(hidden)]
-pub use kinematics::InvariantKinematics;
+use kinematics::InvariantKinematics;
 pub use measures::{kirchhoff, second_piola};
-#[doc(hidden)]
-pub use straight::square;
-#[doc(hidden)]
-pub use tangent::sum_of_terms;
 use tangent::tangent;
 
 /// J − 1 − ln J, never negative and of second order in the change of volume, without cancellation.

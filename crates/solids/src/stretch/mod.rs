@@ -24,15 +24,16 @@ use piola_tensor::FourthOrder;
 use piola_tensor::internal::rows::{Rows, product, scaled, sum};
 
 use super::known_volume::KnownVolume;
-use super::packed::{self, joined};
 
 mod energy;
+pub(crate) mod frames;
 pub(crate) mod isochoric;
 mod parts;
 mod principal;
 
 use energy::isochoric_scale;
 pub use energy::{StretchEnergy, Volume};
+use frames::frames;
 use isochoric::UnimodularDeformation;
 use parts::{Part, Stress};
 use principal::{Principal, tangent};
@@ -272,45 +273,6 @@ pub fn energy_first_piola_and_tangent<T: Real, L: StretchEnergy>(
     let principal = Principal::of(law, &analysis, &volume);
     let (energy, frames) = (energy_of(law, &analysis, &volume), frames(&analysis));
     (energy, principal.first_piola(frames.each_ref()), tangent(&principal, frames.each_ref()))
-}
-
-/// The spatial and the material axes.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn frames<T: Real>(analysis: &StretchAnalysis<T>) -> [Rows<T>; 2] {
-    [analysis.spatial_axes(), analysis.material_axes()]
-}
-
-#[doc(hidden)]
-/// The law in the principal frame, fifteen numbers, then the spatial and the material axes: what [`composed`] takes. Of values, not
-/// of scalars with derivatives.
-#[cfg_attr(not(debug_assertions), inline(always))]
-#[must_use]
-pub fn in_frames<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> [T; 33] {
-    let known = KnownVolume::of(deformation);
-    let analysis = analysis::<T, L>(&known);
-    let numbers = Principal::of(law, &analysis, &Volume::of(&known)).numbers();
-    let [n, m] = frames(&analysis);
-    let with_spatial: [T; 24] = joined(&numbers, &packed::of_stress(n));
-    joined(&with_spatial, &packed::of_stress(m))
-}
-
-#[doc(hidden)]
-/// P and the upper triangle of ∂P/∂F of the numbers of [`in_frames`].
-#[cfg_attr(not(debug_assertions), inline(always))]
-#[must_use]
-pub fn composed<T: Real>(numbers: &[T; 33]) -> [T; 54] {
-    let (mut own, mut frames) = ([numbers[0]; 15], [[[numbers[0]; 3]; 3]; 2]);
-    let mut k = 0;
-    while k < 15 {
-        own[k] = numbers[k];
-        k += 1;
-    }
-    while k < 33 {
-        frames[(k - 15) / 9][(k - 15) % 9 / 3][k % 3] = numbers[k];
-        k += 1;
-    }
-    let (principal, frames) = (Principal::of_numbers(own), frames.each_ref());
-    packed::of_pair((principal.first_piola(frames), tangent(&principal, frames)))
 }
 
 /// Over scalars with derivatives axes have none where stretches coalesce, but the stress has.
