@@ -6,7 +6,8 @@ use crate::state::check_finite;
 use crate::{IntegratorsError, Report, State};
 
 /// A run at the end of an accepted step. Continued by the `resume` of the same method with the same settings, to the same end,
-/// the run takes the same steps, to the last bit. To another end it goes on from the same state. A checkpoint of another method is refused.
+/// the run takes the same steps, to the last bit. To another end it goes on from the same state. A checkpoint of another method is
+/// refused.
 ///
 /// The observer of an adaptive method takes it from the step, as below. For [`GaussLegendre`](crate::GaussLegendre),
 /// [`ProcessedSplitting`](crate::ProcessedSplitting) and the methods of `piola-geometric`, stop the run in the observer; then call
