@@ -80,4 +80,4 @@ if __name__ == "__main__":
     # At the doubles.
     half, processing = [[mpf(float(x)) for x in values] for values in (kernel(free), processor(free))]
     stored = half[:-2] + processing[:-2]
-    print("residual at the doubles", nstr(max(abs(x) for x in conditions(*scheme(stored), 6)), 3))
+    print("residual at the doubles, the last ones from the exact sums", nstr(max(abs(x) for x in conditions(*scheme(stored), 6)), 3))

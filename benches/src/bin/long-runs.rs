@@ -144,8 +144,10 @@ fn free_top(folder: &Path) -> Result<(), Box<dyn Error>> {
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1).unwrap_or_else(|| ".".into());
     let folder = Path::new(&folder);
-    if std::env::args().nth(2).is_none_or(|part| part != "free-top") {
-        outer_solar_system(folder)?;
+    match std::env::args().nth(2).as_deref() {
+        None => outer_solar_system(folder)?,
+        Some("free-top") => {}
+        Some(part) => return Err(format!("there is no part `{part}`: say `free-top`, or nothing for all parts").into()),
     }
     free_top(folder)
 }

@@ -2,26 +2,13 @@
 
 use core::ops::ControlFlow;
 
-use piola_integrators::internal::check_run;
 use piola_integrators::{Ending, IntegratorsError, Report, State, Step};
 use piola_numerics::Real;
 
-/// Takes equal steps no longer than `step` to `end`, of a run that has made those of the report `before`. `advance` makes one step of the given length on the state's values,
-/// leaves them alone where it fails, and returns the number of evaluations.
+/// Takes equal steps no longer than `step` to `end`, from a state that has been checked, in a run whose steps so far are in the report
+/// `before`. `advance` makes one step of the given length on the state's values, leaves them alone where it fails, and returns the number
+/// of evaluations.
 pub(crate) fn take_equal_steps<T: Real, E>(
-    dimension: usize,
-    (before, step): (Report, f64),
-    state: &mut State<T>,
-    end: f64,
-    observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    advance: impl FnMut(&mut State<T>, f64) -> Result<u64, IntegratorsError<E>>,
-) -> Result<Report, IntegratorsError<E>> {
-    check_run(dimension, state, end)?;
-    take_checked_steps((before, step), state, end, observer, advance)
-}
-
-/// The same from a state that has been checked.
-pub(crate) fn take_checked_steps<T: Real, E>(
     (before, step): (Report, f64),
     state: &mut State<T>,
     end: f64,

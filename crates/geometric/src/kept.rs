@@ -4,31 +4,44 @@ use piola_integrators::{Checkpoint, IntegratorsError, Report, State};
 use piola_numerics::Real;
 
 /// Memory of a run of equal steps, of a size that the system and the method fix.
-pub(crate) trait Kept<T: Real> {
+pub(crate) trait Kept<T: Real>: Clone {
     /// Shows every part to the visitor, always in the same order.
     fn visit<V: Visitor<T>>(&mut self, visitor: &mut V);
 
-    /// The run where it stands.
-    fn checkpoint(&mut self, state: &State<T>, report: Report) -> Checkpoint<T> {
+    /// The run of the `method` where it stands.
+    fn checkpoint(&self, method: &'static str, state: &State<T>, report: Report) -> Checkpoint<T> {
         let mut written = Written { memory: Vec::new(), numbers: Vec::new() };
-        self.visit(&mut written);
-        Checkpoint::of(state.clone(), report, written.memory, written.numbers)
+        // One visit for writing and reading: the one that writes sees a copy.
+        self.clone().visit(&mut written);
+        Checkpoint::of(method, state.clone(), report, written.memory, written.numbers)
     }
 
-    /// Goes on from a checkpoint; the method has made room for the system. Returns the report of the run so far.
-    fn restore<E>(&mut self, checkpoint: &Checkpoint<T>, state: &mut State<T>) -> Result<Report, IntegratorsError<E>> {
+    /// Begins a run of the `method` anew or from a checkpoint, in a memory that has room for the system, from a state that `check`
+    /// accepts. Returns the report of the run so far.
+    fn start<E>(
+        &mut self,
+        method: &'static str,
+        resumed: Option<&Checkpoint<T>>,
+        state: &mut State<T>,
+        check: impl FnOnce(&mut State<T>) -> Result<(), IntegratorsError<E>>,
+    ) -> Result<Report, IntegratorsError<E>> {
+        let Some(checkpoint) = resumed else {
+            check(state)?;
+            return Ok(Report::begin());
+        };
         let mut room = Room { memory: 0, numbers: 0 };
         self.visit(&mut room);
         let (memory, numbers) = checkpoint.memory();
-        // Exchanges of rows are checked before anything is changed.
-        let mut checked = Checked { numbers, taken: 0, outside: None };
-        if numbers.len() == room.numbers {
+        checkpoint.open(method, [room.memory, room.numbers], &[], state, |state| {
+            // Exchanges of rows are checked before anything is changed.
+            let mut checked = Checked { numbers, taken: 0, outside: None };
             self.visit(&mut checked);
-        }
-        if let Some((column, row, dimension)) = checked.outside {
-            return Err(IntegratorsError::OutsideMatrix { quantity: "checkpoint.numbers", row, column, dimension });
-        }
-        checkpoint.open(state, room.memory, room.numbers, &[])?;
+            if let Some((index, dimension)) = checked.outside {
+                let (quantity, value) = ("checkpoint.numbers", numbers[index]);
+                return Err(IntegratorsError::InvalidRow { quantity, index, value, dimension });
+            }
+            check(state)
+        })?;
         self.visit(&mut Read { memory, numbers });
         Ok(checkpoint.report().continued())
     }
@@ -84,11 +97,12 @@ impl<T> Visitor<T> for Room {
     }
 }
 
-/// Looks for rows that a matrix has not.
+/// Finds row numbers outside the matrix.
 struct Checked<'a> {
     numbers: &'a [f64],
     taken: usize,
-    outside: Option<(usize, usize, usize)>,
+    /// The index of the first of them, and the number of rows.
+    outside: Option<(usize, usize)>,
 }
 
 impl<T> Visitor<T> for Checked<'_> {
@@ -101,11 +115,9 @@ impl<T> Visitor<T> for Checked<'_> {
     }
     fn exchanges(&mut self, exchanges: &mut [usize]) {
         let dimension = exchanges.len();
-        for (column, &row) in self.numbers[self.taken..][..dimension].iter().enumerate() {
-            let row = row_of(row);
-            if dimension <= row {
-                self.outside = self.outside.or(Some((column, row, dimension)));
-            }
+        let rows = &self.numbers[self.taken..][..dimension];
+        if let Some(column) = rows.iter().position(|&row| row_of(row, dimension).is_none()) {
+            self.outside = self.outside.or(Some((self.taken + column, dimension)));
         }
         self.taken += dimension;
     }
@@ -134,31 +146,35 @@ impl<T: Real> Visitor<T> for Read<'_, T> {
     }
     fn exchanges(&mut self, exchanges: &mut [usize]) {
         let (first, rest) = self.numbers.split_at(exchanges.len());
+        let dimension = exchanges.len();
         for (exchange, &row) in exchanges.iter_mut().zip(first) {
-            *exchange = row_of(row);
+            // They were checked.
+            *exchange = row_of(row, dimension).unwrap_or_default();
         }
         self.numbers = rest;
     }
 }
 
-/// A row as it is written; what is none lies outside of every matrix.
-fn row_of(number: f64) -> usize {
-    if !(0.0 <= number && number < f64::from(u32::MAX)) {
-        return usize::MAX;
+/// A row as it is written, if it is one of so many.
+fn row_of(number: f64, dimension: usize) -> Option<usize> {
+    if !(0.0 <= number && number < dimension as f64 && number.fract().abs() <= 0.0) {
+        return None;
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 2³²")]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number below the dimension")]
     let row = number as usize;
-    row
+    Some(row)
 }
 
-/// The checkpoint of a method of equal steps whose memory is the given field.
+/// The checkpoint of the method of this name, of equal steps, whose memory is the given field.
 macro_rules! checkpoint_of {
-    ($field:ident) => {
+    ($field:ident, $name:literal) => {
+        const NAME: &str = $name;
+
         /// The run where it stands, to be continued by [`resume`](Self::resume): the state and the report of a run of this method that
         /// has ended or that the observer has stopped.
         #[must_use]
-        pub fn checkpoint(&mut self, state: &State<T>, report: Report) -> Checkpoint<T> {
-            self.$field.checkpoint(state, report)
+        pub fn checkpoint(&self, state: &State<T>, report: Report) -> Checkpoint<T> {
+            self.$field.checkpoint(Self::NAME, state, report)
         }
     };
 }

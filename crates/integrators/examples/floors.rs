@@ -4,9 +4,9 @@
 //! cargo run --release -p piola-integrators --example floors
 //! ```
 //!
-//! For four problems, and for errors from 1e-6 to 1e-12, the first table has the fastest method, the time of its run, its evaluations of
-//! the field, and the time of so many evaluations alone. A method with these evaluations cannot be faster than that. Times are the least of
-//! many, points of a curve are interpolated.
+//! For four problems, and for errors from 1e-6 to 1e-12, the first table has each method that reaches the error: the time of its run, its
+//! evaluations of the field, and the time of so many evaluations alone. A method with these evaluations cannot be faster than that. Times
+//! are the least of many, points of a curve are interpolated.
 //!
 //! The second table has Taylor's method with a recursion written by hand for Hénon and Heiles' potential, in five orders. It shows what Taylor's
 //! method can gain on a field of polynomials, without the cost of a recorded formula.

@@ -6,10 +6,12 @@ use crate::state::check_finite;
 use crate::{IntegratorsError, Report, State};
 
 /// A run at the end of an accepted step. Continued by the `resume` of the same method with the same settings, to the same end,
-/// the run takes the same steps, to the last bit. To another end it goes on from the same state.
+/// the run takes the same steps, to the last bit. To another end it goes on from the same state. A checkpoint of another method is
+/// refused.
 ///
-/// The observer of an adaptive method takes it from the step, as below. Of [`GaussLegendre`](crate::GaussLegendre), and of the methods
-/// of `piola-geometric`, a run is first stopped at the step; `method.checkpoint(&state, report)` then makes it.
+/// The observer of an adaptive method takes it from the step, as below. For [`GaussLegendre`](crate::GaussLegendre),
+/// [`ProcessedSplitting`](crate::ProcessedSplitting) and the methods of `piola-geometric`, stop the run in the observer; then call
+/// `method.checkpoint(&state, report)`.
 ///
 /// # Example
 /// ```
@@ -42,12 +44,47 @@ use crate::{IntegratorsError, Report, State};
 )]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Checkpoint<T = f64> {
+    /// The name of the method that made it.
+    pub(crate) method: MethodName,
     pub(crate) state: State<T>,
     pub(crate) report: Report,
     /// What the method knows of the run beside the state: stages or polynomials.
     pub(crate) memory: Vec<T>,
     /// The same, numbers: lengths of steps, magnitudes.
     pub(crate) numbers: Vec<f64>,
+}
+
+/// The name of a method that makes checkpoints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub(crate) struct MethodName(&'static str);
+
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for MethodName {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// Those of this crate and of `piola-geometric`.
+        const ALL: [&str; 16] = [
+            "AdaptiveMuntheKaas",
+            "DiscreteEulerLagrange",
+            "DiscreteGradient",
+            "DormandPrince853",
+            "GaussCollocation",
+            "GaussLegendre",
+            "GaussLegendre16",
+            "GaussRadau15",
+            "GeneralisedAlpha",
+            "LobattoPair",
+            "Nystrom1210",
+            "Nystrom86",
+            "ProcessedSplitting",
+            "ReversibleComposition",
+            "VariationalIntegrator",
+            "Verner98",
+        ];
+        let read: String = serde::Deserialize::deserialize(deserializer)?;
+        let known = ALL.into_iter().find(|&name| name == read).map(Self);
+        known.ok_or_else(|| serde::de::Error::unknown_variant(&read, &ALL))
+    }
 }
 
 impl<T: Real> Checkpoint<T> {
@@ -62,11 +99,11 @@ impl<T: Real> Checkpoint<T> {
         self.report
     }
 
-    /// Of a run whose method remembers `memory` and `numbers` beside the state.
+    /// Of a run of the `method`, which remembers `memory` and `numbers` beside the state.
     #[doc(hidden)]
     #[must_use]
-    pub const fn of(state: State<T>, report: Report, memory: Vec<T>, numbers: Vec<f64>) -> Self {
-        Self { state, report, memory, numbers }
+    pub const fn of(method: &'static str, state: State<T>, report: Report, memory: Vec<T>, numbers: Vec<f64>) -> Self {
+        Self { method: MethodName(method), state, report, memory, numbers }
     }
     #[doc(hidden)]
     #[must_use]
@@ -75,18 +112,23 @@ impl<T: Real> Checkpoint<T> {
     }
 
     /// Refuses a checkpoint of another method or of another size, and one whose numbers are not finite or, at the places of
-    /// `positive`, not positive; the state becomes its state.
+    /// `positive`, not positive. The state becomes that of the checkpoint unless `check` refuses it.
     ///
     /// # Errors
     /// What is refused; the state is then left alone.
     #[doc(hidden)]
     pub fn open<E>(
         &self,
-        state: &mut State<T>,
-        memory: usize,
-        numbers: usize,
+        method: &'static str,
+        [memory, numbers]: [usize; 2],
         positive: &[usize],
+        state: &mut State<T>,
+        check: impl FnOnce(&mut State<T>) -> Result<(), IntegratorsError<E>>,
     ) -> Result<(), IntegratorsError<E>> {
+        let MethodName(found) = self.method;
+        if found != method {
+            return Err(IntegratorsError::WrongMethod { expected: method, found });
+        }
         for (quantity, expected, found) in
             [("checkpoint.memory", memory, self.memory.len()), ("checkpoint.numbers", numbers, self.numbers.len())]
         {
@@ -102,7 +144,9 @@ impl<T: Real> Checkpoint<T> {
                 return Err(IntegratorsError::NotPositive { quantity: "checkpoint.numbers", value });
             }
         }
-        state.clone_from(&self.state);
+        let mut opened = self.state.clone();
+        check(&mut opened)?;
+        *state = opened;
         Ok(())
     }
 }
@@ -130,14 +174,15 @@ impl RunSoFar {
     /// next step and of the best one, the last step, and the contraction that is expected.
     pub(crate) fn checkpoint<T: Real>(
         &self,
+        method: &'static str,
         time: f64,
         values: &[T],
         carry: &[T],
-        memory: Vec<T>,
-        [previous_step, expected]: [f64; 2],
+        (memory, [previous_step, expected]): (Vec<T>, [f64; 2]),
     ) -> Checkpoint<T> {
         let Self { report, time_carry, start, next, best } = *self;
         let state = State { time, values: values.to_vec(), carry: carry.to_vec(), time_carry, run: None };
-        Checkpoint { state, report, memory, numbers: vec![start, next.abs(), best, previous_step, expected] }
+        let numbers = vec![start, next.abs(), best, previous_step, expected];
+        Checkpoint::of(method, state, report, memory, numbers)
     }
 }

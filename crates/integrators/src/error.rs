@@ -33,6 +33,26 @@ pub enum IntegratorsError<E = Infallible> {
         /// The number of rows and of columns.
         dimension: usize,
     },
+    /// A [`Checkpoint`](crate::Checkpoint) that another method made.
+    #[error("the checkpoint was made by `{found}`; `{expected}` cannot continue it")]
+    WrongMethod {
+        /// The method that was to continue the run.
+        expected: &'static str,
+        /// The method that made the checkpoint.
+        found: &'static str,
+    },
+    /// A number that should be a row of a matrix is none.
+    #[error("entry {index} of `{quantity}` is {value}; a row is a whole number, at least 0 and below {dimension}")]
+    InvalidRow {
+        /// The name of the argument.
+        quantity: &'static str,
+        /// The index of the number, counted from 0.
+        index: usize,
+        /// The number.
+        value: f64,
+        /// The number of rows.
+        dimension: usize,
+    },
     /// A number is infinite or NaN: a time or a state that was given, or a rate or a state that a step led to.
     ///
     /// An adaptive method returns the latter only where no shorter step avoids it.
@@ -194,6 +214,10 @@ impl IntegratorsError<Infallible> {
             }
             Self::OutsideMatrix { quantity, row, column, dimension } => {
                 IntegratorsError::OutsideMatrix { quantity, row, column, dimension }
+            }
+            Self::WrongMethod { expected, found } => IntegratorsError::WrongMethod { expected, found },
+            Self::InvalidRow { quantity, index, value, dimension } => {
+                IntegratorsError::InvalidRow { quantity, index, value, dimension }
             }
             Self::NotFinite { quantity, index, value, t } => IntegratorsError::NotFinite { quantity, index, value, t },
             Self::OutsideGroup { index, defect } => IntegratorsError::OutsideGroup { index, defect },

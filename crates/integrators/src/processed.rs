@@ -23,8 +23,8 @@ use crate::{Checkpoint, Ending, IntegratorsError, Report, Separable, State, Step
 /// processor π    a₀ b₁ a₁ … b₁₁ a₁₁           Σ a = Σ b = 0: 11 forces at the start, and for each state that is shown
 /// ```
 ///
-/// Both are symplectic, and so is what is shown. For other separable systems take [`Composition`](crate::Composition): the order is
-/// lower there, and nothing tells.
+/// Both are symplectic, and so is what is shown. On other separable systems the order is lower, and the method cannot detect it. Use
+/// [`Composition`](crate::Composition) there.
 ///
 /// # Accuracy
 /// Global error O(h⁶). Evaluated with 31 digits at the stored doubles, the order conditions of π⁻¹ κₕ π are obeyed to
@@ -59,9 +59,18 @@ pub struct ProcessedSplitting<T = f64> {
     kernel: Splitter<T>,
     enter: Splitter<T>,
     leave: Splitter<T>,
-    /// The state in the kernel's coordinates.
-    inner: Option<State<T>>,
+    /// The state in the kernel's coordinates, which depend on the length of the step.
+    inner: Option<Inner<T>>,
 }
+
+#[derive(Clone, Debug)]
+struct Inner<T> {
+    state: State<T>,
+    step: f64,
+}
+
+/// The name in a checkpoint.
+const NAME: &str = "ProcessedSplitting";
 
 impl<T: Real> ProcessedSplitting<T> {
     /// The splitting with steps no longer than `step` (s).
@@ -104,12 +113,12 @@ impl<T: Real> ProcessedSplitting<T> {
 
     /// Integrates to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is earlier than the state's time.
     ///
-    /// The observer sees every `shown`-th step (of 0: none) and the last, and may stop the run there. To show a state costs the
-    /// forces of the processor; it does not change the run.
+    /// The observer sees the last step and, if `shown` is not 0, every `shown`-th one, and may stop the run there. To show a state
+    /// costs the forces of the processor; it does not change the run.
     ///
     /// # Errors
     /// The state does not fit or is not finite, the step is too small to advance the time, or the field fails or gives a rate that is
-    /// not finite. The state then stands at the last complete step, or where the processor fails there, at the one shown last.
+    /// not finite. The state then stands at the last complete step. If the processor itself fails, the state is the one shown last.
     pub fn integrate<F: Separable<T>>(
         &mut self,
         field: &mut F,
@@ -124,34 +133,42 @@ impl<T: Real> ProcessedSplitting<T> {
     }
 
     /// The run where it stands, to be continued by [`resume`](Self::resume): the state and the report of a run of this method that has
-    /// ended or that the observer has stopped. Before the first run there is none to continue.
+    /// ended or that the observer has stopped. Before the first run, and where the processor has failed, the checkpoint is empty, and
+    /// [`resume`](Self::resume) refuses it.
     #[must_use]
     pub fn checkpoint(&self, state: &State<T>, report: Report) -> Checkpoint<T> {
-        let memory = self.inner.as_ref().map_or(Vec::new(), |inner| [&inner.values[..], &inner.carry].concat());
-        Checkpoint::of(state.clone(), report, memory, Vec::new())
+        // Where the processor has failed, the kernel is ahead of the state.
+        let inner = self.inner.as_ref().filter(|inner| inner.state.time.total_cmp(&state.time).is_eq());
+        let (memory, numbers) = inner.map_or((Vec::new(), Vec::new()), |Inner { state, step }| {
+            ([&state.values[..], &state.carry].concat(), vec![*step])
+        });
+        Checkpoint::of(NAME, state.clone(), report, memory, numbers)
     }
 
     /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
-    /// checkpoint. To the same end the run takes the same steps, to the last bit.
+    /// checkpoint. To the same end the run takes the same steps, to the last bit. To another end the length of the steps may differ;
+    /// the run then begins anew from the state of the checkpoint, and its report goes on counting.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method,
+    /// [`IntegratorsError::WrongLength`] for one of another system or an empty one. The state is then left alone.
     pub fn resume<F: Separable<T>>(
         &mut self,
         field: &mut F,
         checkpoint: &Checkpoint<T>,
         state: &mut State<T>,
-        (end, shown): (f64, u64),
+        end: f64,
+        shown: u64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
         let n = 2 * field.freedom();
-        checkpoint.open(state, 2 * n, 0, &[])?;
-        check_run(n, state, end)?;
+        checkpoint.open(NAME, [2 * n, 1], &[], state, |state| check_run(n, state, end))?;
         let mut inner = state.clone();
-        let (values, carry) = checkpoint.memory().0.split_at(n);
+        let (memory, numbers) = checkpoint.memory();
+        let (values, carry) = memory.split_at(n);
         inner.values.copy_from_slice(values);
         inner.carry.copy_from_slice(carry);
-        self.inner = Some(inner);
+        self.inner = Some(Inner { state: inner, step: numbers[0] });
         self.run(field, state, end, shown, checkpoint.report().continued(), observer)
     }
 
@@ -174,12 +191,13 @@ impl<T: Real> ProcessedSplitting<T> {
         if steps.count == taken {
             return Ok(report);
         }
-        let inner = if let Some(inner) = inner {
-            inner
+        let of_this_step = inner.take().filter(|inner| inner.step.total_cmp(&h).is_eq());
+        let Inner { state: inner, .. } = if let Some(kept) = of_this_step {
+            inner.insert(kept)
         } else {
             let mut entered = state.clone();
             report.evaluations += enter.advance(field, &mut entered, h, state.time)?;
-            inner.insert(entered)
+            inner.insert(Inner { state: entered, step: h })
         };
         let mut spare = inner.clone();
         let mut show = |field: &mut F, inner: &State<T>, state: &mut State<T>| {

@@ -152,7 +152,7 @@ pub(crate) fn palindrome(half: &[f64]) -> ([SplittingStage; MOST_STAGES], usize)
     (table.stages, table.count)
 }
 
-/// The stages of drifts and kicks in turn, whose sums vanish: they lead from a moment to the same moment.
+/// The stages of drifts and kicks in turn, whose sums vanish: the time at the end is that at the start.
 pub(crate) fn processor(coefficients: &[f64], inverse: bool) -> ([SplittingStage; MOST_STAGES], usize) {
     let (mut table, all) = (Table::new(), coefficients.len());
     let of = |index: usize| if inverse { -coefficients[all - 1 - index] } else { coefficients[index] };
@@ -187,7 +187,7 @@ impl Table {
         self.push(0.5 * previous, 0.0, 1.0, 1.0);
     }
 
-    /// So many drifts and kicks in turn, whose sums are `sum`.
+    /// `all` drifts and kicks in turn; the drifts add up to `sum`, and so do the kicks.
     fn alternate(&mut self, all: usize, of: impl Fn(usize) -> f64, sum: f64) {
         let (mut drifted, mut kicked) = (0.0, 0.0);
         for index in (0..all).step_by(2) {

@@ -19,7 +19,7 @@ use crate::field::largest_lane;
 /// A run of equal steps that an observer stopped goes on with the same steps, to the last bit, when the same method continues it to
 /// the same end: the state knows its steps, also after it was written and read (feature `serde`). This holds for methods that keep
 /// nothing but the state from step to step: [`Composition`](crate::Composition), and in `piola-geometric` `MuntheKaas` and
-/// `CommutatorFree`. All others have a [`Checkpoint`](crate::Checkpoint).
+/// `CommutatorFree`. Methods with `resume` need a [`Checkpoint`](crate::Checkpoint); the rest go on to rounding.
 ///
 /// # Example
 /// ```
@@ -362,6 +362,35 @@ macro_rules! unobserved_run {
             end: f64,
         ) -> Result<$crate::Report, $Error> {
             self.integrate($field, state, end, $crate::unobserved)
+        }
+    };
+}
+
+/// The continued run of a method over scalars `T` that has `run(field, resumed, state, end, observer)`: its type parameters, their
+/// bounds, its field and its error.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! resumed_run {
+    (<$($F:ident),+> [$($bounds:tt)+] $field:ident: $Field:ty, $Error:ty) => {
+        /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
+        /// checkpoint. To the same end the run takes the same steps, to the last bit.
+        ///
+        /// # Errors
+        /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method, and
+        /// [`IntegratorsError::WrongLength`] for one of another order or system or of a method that has not run. The state is then
+        /// left alone.
+        pub fn resume<$($F),+>(
+            &mut self,
+            $field: $Field,
+            checkpoint: &$crate::Checkpoint<T>,
+            state: &mut $crate::State<T>,
+            end: f64,
+            observer: impl FnMut($crate::Step<'_, T>) -> core::ops::ControlFlow<()>,
+        ) -> Result<$crate::Report, $Error>
+        where
+            $($bounds)+
+        {
+            self.run($field, Some(checkpoint), state, end, observer)
         }
     };
 }

@@ -32,8 +32,10 @@ mod system;
 
 use core::ops::ControlFlow;
 
-use piola_integrators::internal::{check_step, check_sums, compensated_add};
-use piola_integrators::{Checkpoint, IntegratorsError, Order, Report, State, Step, order_and_step, unobserved_run};
+use piola_integrators::internal::{check_run, check_step, check_sums, compensated_add};
+use piola_integrators::{
+    Checkpoint, IntegratorsError, Order, Report, State, Step, order_and_step, resumed_run, unobserved_run,
+};
 use piola_numerics::Real;
 
 use self::equations::{MidpointStep, Workspace};
@@ -147,23 +149,9 @@ impl<T: Real> DiscreteGradient<T> {
         self.run(system, None, state, end, observer)
     }
 
-    checkpoint_of!(kept);
+    checkpoint_of!(kept, "DiscreteGradient");
 
-    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
-    /// checkpoint. To the same end the run takes the same steps, to the last bit.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
-    pub fn resume<S: EnergySystem>(
-        &mut self,
-        system: &S,
-        checkpoint: &Checkpoint<T>,
-        state: &mut State<T>,
-        end: f64,
-        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegratorsError> {
-        self.run(system, Some(checkpoint), state, end, observer)
-    }
+    resumed_run!(<S> [S: EnergySystem] system: &S, IntegratorsError);
 
     fn run<S: EnergySystem>(
         &mut self,
@@ -175,8 +163,8 @@ impl<T: Real> DiscreteGradient<T> {
     ) -> Result<Report, IntegratorsError> {
         let n = system.dimension();
         self.begin(n, state);
-        let before = resumed.map_or(Ok(Report::begin()), |checkpoint| self.kept.restore(checkpoint, state))?;
-        take_equal_steps(n, (before, self.step), state, end, observer, |state, h| self.advance(system, state, h))
+        let before = self.kept.start(Self::NAME, resumed, state, |state| check_run(n, state, end))?;
+        take_equal_steps((before, self.step), state, end, observer, |state, h| self.advance(system, state, h))
     }
 
     fn begin(&mut self, n: usize, state: &State<T>) {

@@ -7,7 +7,7 @@ use piola_integrators::internal::{
 };
 use piola_integrators::{
     Checkpoint, DormandPrincePair, Ending, IntegratorsError, Report, State, Step, Tolerance, limits_of_steps,
-    unobserved,
+    resumed_run, unobserved,
 };
 use piola_numerics::Real;
 
@@ -16,6 +16,8 @@ use super::run::{Trial, check_start, evaluate};
 use super::tableaux::DORMAND_PRINCE_8;
 use super::{GroupField, LieGroup};
 
+/// The name in a checkpoint.
+const NAME: &str = "AdaptiveMuntheKaas";
 const STAGES: usize = 12;
 
 /// The Runge–Kutta–Munthe-Kaas method of order 8(5,3), on Dormand and Prince's pair, with steps that adapt to a tolerance.
@@ -110,7 +112,8 @@ impl<T: Real> AdaptiveMuntheKaas<T> {
     }
 
     /// The run where it stands, to be continued by [`resume`](Self::resume): the state and the report of a run of this method that
-    /// has ended or that the observer has stopped.
+    /// has ended or that the observer has stopped. After a run without a step the checkpoint has no next step, and
+    /// [`resume`](Self::resume) refuses it ([`IntegratorsError::NotPositive`]).
     ///
     /// # Example
     /// ```
@@ -134,24 +137,10 @@ impl<T: Real> AdaptiveMuntheKaas<T> {
     #[must_use]
     pub fn checkpoint(&self, state: &State<T>, report: Report) -> Checkpoint<T> {
         let numbers = core::iter::once(&self.next).chain(&self.magnitudes_at_end).copied().collect();
-        Checkpoint::of(state.clone(), report, self.velocity_at_end.clone(), numbers)
+        Checkpoint::of(NAME, state.clone(), report, self.velocity_at_end.clone(), numbers)
     }
 
-    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
-    /// checkpoint. To the same end the run takes the same steps, to the last bit.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
-    pub fn resume<F: GroupField<T>>(
-        &mut self,
-        field: &mut F,
-        checkpoint: &Checkpoint<T>,
-        state: &mut State<T>,
-        end: f64,
-        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.run(field, Some(checkpoint), state, end, observer)
-    }
+    resumed_run!(<F> [F: GroupField<T>] field: &mut F, IntegratorsError<F::Error>);
 
     fn run<F: GroupField<T>>(
         &mut self,
@@ -252,10 +241,13 @@ impl<T: Real, F: GroupField<T>> EmbeddedPair<T, F> for AdaptiveMuntheKaas<T> {
         report: &mut Report,
     ) -> Result<f64, IntegratorsError<F::Error>> {
         let n = field.group().dimension();
-        if let Some(checkpoint) = resumed {
-            checkpoint.open(state, n, n + 1, &[0])?;
+        match resumed {
+            None => check_start(field.group(), 0, state, end)?,
+            Some(checkpoint) => {
+                let check = |state: &mut State<T>| check_start(field.group(), 0, state, end);
+                checkpoint.open(NAME, [n, n + 1], &[0], state, check)?;
+            }
         }
-        check_start(field.group(), 0, state, end)?;
         self.prepare(field.group(), state);
         let span = end - state.time;
         if span.abs() <= 0.0 {

@@ -16,7 +16,7 @@ use piola_numerics::Real;
 
 use super::run::{Trial, check_start, equal_steps_on_a_group, evaluate};
 use super::{GroupField, LieGroup};
-use crate::fixed_step::take_checked_steps;
+use crate::fixed_step::take_equal_steps;
 
 /// The commutator-free method of order 4 with a fixed step: four evaluations and six exponentials a step.
 ///

@@ -16,7 +16,7 @@ use piola_numerics::Real;
 use super::run::{Trial, check_start, equal_steps_on_a_group, evaluate};
 use super::tableaux::{DORMAND_PRINCE_8, HALF_STEP_2, KUTTA_4, Row, SIX, Tableau};
 use super::{GroupField, LieGroup};
-use crate::fixed_step::take_checked_steps;
+use crate::fixed_step::take_equal_steps;
 
 /// A Runge–Kutta–Munthe-Kaas method with a fixed step.
 ///

@@ -87,7 +87,7 @@ macro_rules! equal_steps_on_a_group {
                 vector.resize(dimension, T::zero());
             }
             self.trial.resize(state.values.len());
-            take_checked_steps((Report::begin(), self.step), state, end, observer, |state, h| self.advance(field, state, h))
+            take_equal_steps((Report::begin(), self.step), state, end, observer, |state, h| self.advance(field, state, h))
         }
     };
 }

@@ -3,7 +3,9 @@
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::{DIRECTIONS, check_step};
-use piola_integrators::{Checkpoint, Field, IntegratorsError, Order, Report, State, Step, order_and_step, unobserved};
+use piola_integrators::{
+    Checkpoint, Field, IntegratorsError, Order, Report, State, Step, order_and_step, resumed_run, unobserved,
+};
 use piola_numerics::{Gradient, Real};
 
 use super::equations::Exact;
@@ -106,20 +108,19 @@ impl<T: Real> GaussCollocation<T> {
     where
         F: Field<T, Error = E> + Field<Gradient<T, DIRECTIONS>, Error = E>,
     {
-        self.stepper.run::<F, Exact>((None, self.step), field, state, end, observer)
+        self.run(field, None, state, end, observer)
     }
 
-    checkpoint_of!(stepper);
+    checkpoint_of!(stepper, "GaussCollocation");
 
-    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
-    /// checkpoint. To the same end the run takes the same steps, to the last bit.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
-    pub fn resume<F, E>(
+    resumed_run!(
+        <F, E> [F: Field<T, Error = E> + Field<Gradient<T, DIRECTIONS>, Error = E>] field: &mut F, IntegratorsError<E>
+    );
+
+    fn run<F, E>(
         &mut self,
         field: &mut F,
-        checkpoint: &Checkpoint<T>,
+        resumed: Option<&Checkpoint<T>>,
         state: &mut State<T>,
         end: f64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
@@ -127,6 +128,6 @@ impl<T: Real> GaussCollocation<T> {
     where
         F: Field<T, Error = E> + Field<Gradient<T, DIRECTIONS>, Error = E>,
     {
-        self.stepper.run::<F, Exact>((Some(checkpoint), self.step), field, state, end, observer)
+        self.stepper.run::<F, Exact>((Self::NAME, resumed, self.step), field, state, end, observer)
     }
 }

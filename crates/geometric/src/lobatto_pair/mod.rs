@@ -25,7 +25,7 @@ use core::ops::ControlFlow;
 
 use piola_integrators::internal::{DIRECTIONS, check_step};
 use piola_integrators::{
-    Checkpoint, Field, IntegratorsError, Order, Report, State, Step, order_and_step, unobserved_run,
+    Checkpoint, Field, IntegratorsError, Order, Report, State, Step, order_and_step, resumed_run, unobserved_run,
 };
 use piola_numerics::{Gradient, Real};
 
@@ -87,7 +87,7 @@ impl<T: Real> LobattoPair<T> {
         end: f64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.run::<F, FixedPoint>(field, None, state, end, observer)
+        self.run(field, None, state, end, observer)
     }
 
     /// Integrates as [`integrate`](Self::integrate), by simplified Newton iteration with exact Jacobians, which converges where
@@ -106,32 +106,19 @@ impl<T: Real> LobattoPair<T> {
     where
         F: Field<T, Error = E> + Field<Gradient<T, DIRECTIONS>, Error = E>,
     {
-        self.run::<F, Exact>(field, None, state, end, observer)
+        self.run_by::<F, Exact>(field, None, state, end, observer)
     }
 
-    checkpoint_of!(stepper);
+    checkpoint_of!(stepper, "LobattoPair");
 
-    /// Continues a run of [`integrate`](Self::integrate) from a [`Checkpoint`] that this method made with the same settings: the state
-    /// becomes that of the checkpoint. To the same end the run takes the same steps, to the last bit.
+    resumed_run!(<F> [F: Field<T>] field: &mut F, IntegratorsError<F::Error>);
+
+    /// Continues a run of [`integrate_by_newton`](Self::integrate_by_newton), as [`resume`](Self::resume) continues one of
+    /// [`integrate`](Self::integrate).
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method, iteration or system.
-    pub fn resume<F: Field<T>>(
-        &mut self,
-        field: &mut F,
-        checkpoint: &Checkpoint<T>,
-        state: &mut State<T>,
-        end: f64,
-        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.run::<F, FixedPoint>(field, Some(checkpoint), state, end, observer)
-    }
-
-    /// Continues a run of [`integrate_by_newton`](Self::integrate_by_newton), as [`resume`](Self::resume).
-    ///
-    /// # Errors
-    /// As [`integrate_by_newton`](Self::integrate_by_newton); [`IntegratorsError::WrongLength`] for a checkpoint of another method,
-    /// iteration or system.
+    /// As [`integrate_by_newton`](Self::integrate_by_newton) and [`resume`](Self::resume); [`IntegratorsError::WrongLength`] also for a
+    /// checkpoint of the other iteration.
     pub fn resume_by_newton<F, E>(
         &mut self,
         field: &mut F,
@@ -143,10 +130,21 @@ impl<T: Real> LobattoPair<T> {
     where
         F: Field<T, Error = E> + Field<Gradient<T, DIRECTIONS>, Error = E>,
     {
-        self.run::<F, Exact>(field, Some(checkpoint), state, end, observer)
+        self.run_by::<F, Exact>(field, Some(checkpoint), state, end, observer)
     }
 
-    fn run<F: Field<T>, K: Jacobians<F, T>>(
+    fn run<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        resumed: Option<&Checkpoint<T>>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.run_by::<F, FixedPoint>(field, resumed, state, end, observer)
+    }
+
+    fn run_by<F: Field<T>, K: Jacobians<F, T>>(
         &mut self,
         field: &mut F,
         resumed: Option<&Checkpoint<T>>,
@@ -158,6 +156,6 @@ impl<T: Real> LobattoPair<T> {
         if !n.is_multiple_of(2) {
             return Err(IntegratorsError::OddDimension { dimension: n });
         }
-        self.stepper.run::<F, K>((resumed, self.step), field, state, end, observer)
+        self.stepper.run::<F, K>((Self::NAME, resumed, self.step), field, state, end, observer)
     }
 }

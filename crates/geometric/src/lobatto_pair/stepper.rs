@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-use piola_integrators::internal::{check_sums, compensated_add};
+use piola_integrators::internal::{check_run, check_sums, compensated_add};
 use piola_integrators::{Checkpoint, Field, IntegratorsError, Report, State, Step};
 use piola_numerics::{Gradient, Real};
 
@@ -41,10 +41,10 @@ impl<T: Real> PairStepper<T> {
         Self { tableau: *tableau, newton: Newton::new(), increments: Vec::new(), work }
     }
 
-    /// Takes equal steps no longer than `step` to `end`; a run that is resumed goes on from its checkpoint.
+    /// Takes equal steps no longer than `step` to `end` for the `method`; a run that is resumed goes on from its checkpoint.
     pub(super) fn run<F: Field<T>, K: Jacobians<F, T>>(
         &mut self,
-        (resumed, step): (Option<&Checkpoint<T>>, f64),
+        (method, resumed, step): (&'static str, Option<&Checkpoint<T>>, f64),
         field: &mut F,
         state: &mut State<T>,
         end: f64,
@@ -56,9 +56,9 @@ impl<T: Real> PairStepper<T> {
         self.increments.clear();
         self.increments.resize(size, T::zero());
         self.work.resize(n, !K::NONE);
-        let before = resumed.map_or(Ok(Report::begin()), |checkpoint| self.restore(checkpoint, state))?;
+        let before = self.start(method, resumed, state, |state| check_run(n, state, end))?;
         let Self { tableau, newton, increments, work } = self;
-        take_equal_steps(n, (before, step), state, end, observer, |state, h| {
+        take_equal_steps((before, step), state, end, observer, |state, h| {
             // The weights sum to the step exactly.
             let mut weights = tableau.weights.map(|b| h * b);
             let middle = tableau.stages / 2;

@@ -27,6 +27,9 @@ use piola_numerics::Dual;
 
 pub use self::length::StepLength;
 
+/// The name in a checkpoint.
+const NAME: &str = "ReversibleComposition";
+
 /// A symmetric splitting with steps that adapt and keep reversibility, in double precision.
 ///
 /// | symbol | argument | unit |
@@ -139,18 +142,20 @@ impl ReversibleComposition {
     }
 
     /// The run where it stands, to be continued by [`resume`](Self::resume): the state and the report of a run of this method that has
-    /// ended or that the observer has stopped. Before the first run there is none to continue.
+    /// ended or that the observer has stopped. Before the first run the checkpoint is empty, and
+    /// [`resume`](Self::resume) refuses it.
     #[must_use]
     pub fn checkpoint(&self, state: &State, report: Report) -> Checkpoint {
-        Checkpoint::of(state.clone(), report, Vec::new(), self.density.into_iter().collect())
+        Checkpoint::of(NAME, state.clone(), report, Vec::new(), self.density.into_iter().collect())
     }
 
     /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
     /// checkpoint. To the same end the run takes the same steps, to the last bit; the report may count one evaluation more.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] and [`IntegratorsError::NotPositive`] for a checkpoint of
-    /// another method.
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method,
+    /// [`IntegratorsError::WrongLength`] for one of another system or an empty one, [`IntegratorsError::NotPositive`] for one whose ρ
+    /// is not positive. The state and ρ are then left alone.
     pub fn resume<F: Separable>(
         &mut self,
         field: &mut F,
@@ -160,7 +165,7 @@ impl ReversibleComposition {
         end: f64,
         observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        checkpoint.open(state, 0, 1, &[0])?;
+        checkpoint.open(NAME, [0, 1], &[0], state, |state| check_run(2 * field.freedom(), state, end))?;
         self.density = Some(checkpoint.memory().1[0]);
         self.run_to(field, length, state, (checkpoint.report().continued(), end), observer)
     }

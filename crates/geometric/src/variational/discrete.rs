@@ -2,8 +2,8 @@
 
 use core::ops::ControlFlow;
 
-use piola_integrators::internal::{DIRECTIONS as D, check_step};
-use piola_integrators::{Checkpoint, IntegratorsError, Report, State, Step, unobserved};
+use piola_integrators::internal::{DIRECTIONS as D, check_run, check_step};
+use piola_integrators::{Checkpoint, IntegratorsError, Report, State, Step, resumed_run, unobserved};
 use piola_numerics::{Gradient, Real};
 
 use super::step::{DiscreteAction, Start, Stepper};
@@ -148,23 +148,9 @@ impl<T: Real> DiscreteEulerLagrange<T> {
         self.run(lagrangian, None, state, end, observer)
     }
 
-    checkpoint_of!(stepper);
+    checkpoint_of!(stepper, "DiscreteEulerLagrange");
 
-    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
-    /// checkpoint. To the same end the run takes the same steps, to the last bit.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
-    pub fn resume<L: DiscreteLagrangian>(
-        &mut self,
-        lagrangian: &L,
-        checkpoint: &Checkpoint<T>,
-        state: &mut State<T>,
-        end: f64,
-        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegratorsError> {
-        self.run(lagrangian, Some(checkpoint), state, end, observer)
-    }
+    resumed_run!(<L> [L: DiscreteLagrangian] lagrangian: &L, IntegratorsError);
 
     fn run<L: DiscreteLagrangian>(
         &mut self,
@@ -177,8 +163,9 @@ impl<T: Real> DiscreteEulerLagrange<T> {
         let n = lagrangian.freedom();
         self.memory.resize(n);
         let (stepper, memory) = (&mut self.stepper, &mut self.memory);
-        let before = stepper.begin(n, 1, resumed, state)?;
-        take_equal_steps(2 * n, (before, self.step), state, end, observer, |state, h| {
+        stepper.begin(n, 1);
+        let before = stepper.start(Self::NAME, resumed, state, |state| check_run(2 * n, state, end))?;
+        take_equal_steps((before, self.step), state, end, observer, |state, h| {
             stepper.advance(&mut GivenAction { lagrangian, memory }, state, h)
         })
     }

@@ -32,8 +32,10 @@ mod system;
 
 use core::ops::ControlFlow;
 
-use piola_integrators::internal::{check_finite, check_step};
-use piola_integrators::{Checkpoint, IntegratorsError, Order, Report, State, Step, order_and_step, unobserved_run};
+use piola_integrators::internal::{check_finite, check_run, check_step};
+use piola_integrators::{
+    Checkpoint, IntegratorsError, Order, Report, State, Step, order_and_step, resumed_run, unobserved_run,
+};
 use piola_numerics::Real;
 
 pub use self::discrete::{Chord, DiscreteEulerLagrange, DiscreteLagrangian};
@@ -148,23 +150,9 @@ impl<T: Real> VariationalIntegrator<T> {
         self.run(system, None, state, end, observer)
     }
 
-    checkpoint_of!(stepper);
+    checkpoint_of!(stepper, "VariationalIntegrator");
 
-    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
-    /// checkpoint. To the same end the run takes the same steps, to the last bit.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
-    pub fn resume<S: VariationalSystem>(
-        &mut self,
-        system: &S,
-        checkpoint: &Checkpoint<T>,
-        state: &mut State<T>,
-        end: f64,
-        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegratorsError> {
-        self.run(system, Some(checkpoint), state, end, observer)
-    }
+    resumed_run!(<S> [S: VariationalSystem] system: &S, IntegratorsError);
 
     fn run<S: VariationalSystem>(
         &mut self,
@@ -177,8 +165,9 @@ impl<T: Real> VariationalIntegrator<T> {
         let n = system.freedom();
         self.make_memory(n);
         let (stepper, memory, tableau) = (&mut self.stepper, &mut self.memory, &self.tableau);
-        let before = stepper.begin(n, tableau.degree, resumed, state)?;
-        take_equal_steps(2 * n, (before, self.step), state, end, observer, |state, h| {
+        stepper.begin(n, tableau.degree);
+        let before = stepper.start(Self::NAME, resumed, state, |state| check_run(2 * n, state, end))?;
+        take_equal_steps((before, self.step), state, end, observer, |state, h| {
             stepper.advance(&mut PolynomialAction { system, tableau, memory }, state, h)
         })
     }

@@ -1,7 +1,7 @@
 //! One step in position–momentum form, for any discrete action.
 
 use piola_integrators::internal::{check_finite, check_sums, compensated_add, largest_lane};
-use piola_integrators::{Checkpoint, IntegratorsError, Report, State};
+use piola_integrators::{IntegratorsError, State};
 use piola_numerics::Real;
 
 use crate::kept::{Kept, Visitor};
@@ -91,20 +91,13 @@ impl<T: Real> Stepper<T> {
         Self { newton: Newton::new(), increments: Vec::new(), impulse: Vec::new(), residual: Vec::new() }
     }
 
-    /// Makes room for n coordinates; a run that is resumed goes on from its checkpoint. Returns the report of the run so far.
-    pub(super) fn begin(
-        &mut self,
-        n: usize,
-        nodes: usize,
-        resumed: Option<&Checkpoint<T>>,
-        state: &mut State<T>,
-    ) -> Result<Report, IntegratorsError> {
+    /// Makes room for n coordinates.
+    pub(super) fn begin(&mut self, n: usize, nodes: usize) {
         self.newton.begin(n * nodes, true);
         self.increments.clear();
         self.increments.resize(n * nodes, T::zero());
         self.residual.resize(n * nodes, T::zero());
         self.impulse.resize(n, T::zero());
-        resumed.map_or(Ok(Report::begin()), |checkpoint| self.restore(checkpoint, state))
     }
 
     /// Makes one step on the values of the state; returns the number of evaluations.

@@ -7,36 +7,21 @@ use piola_geometric::{
     GaussCollocation, GeneralisedAlpha, LobattoPair, MuntheKaas, ReversibleComposition, VariationalIntegrator,
     VariationalSystem,
 };
-use piola_integrators::{
-    Checkpoint, IntegratorsError, Order, Report, Separable, SplittingScheme, State, Step, Tolerance, separable,
-};
+use piola_integrators::{Checkpoint, IntegratorsError, Order, Report, SplittingScheme, State, Step, Tolerance};
 use piola_numerics::Real;
 
+use crate::continuing::{assert_refused, elsewhere, growing, until, written_and_read};
 use crate::discrete_gradient::{DampedPendulum, HenonHeiles};
 use crate::lie_group::Top;
 use crate::problems::{kepler, kepler_at};
 use crate::reversible::Distance;
 use crate::variational::{self, Kepler};
 
-/// Writes and reads a state or a checkpoint, where the feature allows it.
-#[cfg(feature = "serde")]
-fn written_and_read<T: serde::Serialize + serde::de::DeserializeOwned>(written: &T) -> T {
-    serde_json::from_str(&serde_json::to_string(written).unwrap()).unwrap()
-}
-#[cfg(not(feature = "serde"))]
-fn written_and_read<T: Clone>(written: &T) -> T {
-    written.clone()
-}
-
 const END: f64 = 3.0;
 const TOP: [f64; 7] = [1.0, 0.0, 0.0, 0.0, 0.3, 2.0, -0.7];
 
 fn start(values: &[f64]) -> State {
     State::new(0.25, values.to_vec()).unwrap()
-}
-
-fn until(number: u64) -> impl FnMut(Step<'_>) -> ControlFlow<()> {
-    move |step| if step.number == number { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
 /// Methods that keep nothing but the state.
@@ -60,11 +45,12 @@ fn resumed_runs_are_whole<M>(
     start: &State,
     method: impl Fn() -> M,
     run: impl Fn(&mut M, &mut State, &mut dyn FnMut(Step<'_>) -> ControlFlow<()>) -> Result<Report, IntegratorsError>,
-    checkpoint: impl Fn(&mut M, &State, Report) -> Checkpoint,
+    checkpoint: impl Fn(&M, &State, Report) -> Checkpoint,
     resume: impl Fn(
         &mut M,
         &Checkpoint,
         &mut State,
+        f64,
         &mut dyn FnMut(Step<'_>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError>,
 ) {
@@ -78,12 +64,14 @@ fn resumed_runs_are_whole<M>(
     for stop in [1, 2, 9, report.steps - 1] {
         let (mut state, mut first) = (start.clone(), method());
         let stopped = run(&mut first, &mut state, &mut until(stop)).unwrap();
-        let kept = written_and_read(&checkpoint(&mut first, &state, stopped));
+        let kept = written_and_read(&checkpoint(&first, &state, stopped));
         assert_eq!((kept.state(), kept.report().steps), (&state, stop));
         // A new method, and a state that has nothing to do with it.
-        let mut continued = State::new(-1.0, vec![7.0; state.values.len()]).unwrap();
+        let mut continued = elsewhere(state.values.len());
+        let refused = resume(&mut method(), &kept, &mut continued, f64::NAN, &mut |_step| ControlFlow::Continue(()));
+        assert_refused(&refused, &continued);
         let mut next = stop;
-        let resumed = resume(&mut method(), &kept, &mut continued, &mut |step| {
+        let resumed = resume(&mut method(), &kept, &mut continued, END, &mut |step| {
             next += 1;
             assert_eq!((step.number, step.values), (next, &seen[usize::try_from(next).unwrap() - 1][..]), "{name}");
             ControlFlow::Continue(())
@@ -109,7 +97,7 @@ macro_rules! with_checkpoints {
             || $method,
             |method, state, observer| method.$integrate($system, state, END, observer),
             |method, state, report| method.checkpoint(state, report),
-            |method, kept, state, observer| method.$resume($system, kept, state, END, observer),
+            |method, kept, state, end, observer| method.$resume($system, kept, state, end, observer),
         )
     };
 }
@@ -171,14 +159,6 @@ fn of_discrete_gradients() {
     with_checkpoints!(DiscreteGradient::new(Order::Two, 0.07).unwrap(), &damped, [1.0, 0.2]);
 }
 
-/// An attraction that grows with time, so that a force at the wrong moment shows.
-fn growing() -> impl Separable<Error = core::convert::Infallible> {
-    separable(2, |t: f64, q: &[f64], force: &mut [f64]| {
-        let factor = -(1.0 + 0.1 * t) / (q[0] * q[0] + q[1] * q[1]).powf(1.5);
-        force.copy_from_slice(&[factor * q[0], factor * q[1]]);
-    })
-}
-
 #[test]
 fn of_reversible_steps() {
     for scheme in [SplittingScheme::Composition(Order::Two), SplittingScheme::Nystrom6] {
@@ -187,14 +167,14 @@ fn of_reversible_steps() {
             &start(&kepler_at(0.5, 0.0)),
             || ReversibleComposition::new(scheme, 0.1).unwrap(),
             |method, state, observer| method.integrate(&mut growing(), &Distance, state, END, observer),
-            |method, state, report| method.checkpoint(state, report),
-            |method, kept, state, observer| method.resume(&mut growing(), &Distance, kept, state, END, observer),
+            ReversibleComposition::checkpoint,
+            |method, kept, state, end, observer| method.resume(&mut growing(), &Distance, kept, state, end, observer),
         );
     }
 }
 
 #[test]
-fn a_checkpoint_of_another_size_is_refused() {
+fn a_checkpoint_of_another_method_or_size_is_refused() {
     let mut state = start(&kepler_at(0.2, 0.0));
     let mut method = LobattoPair::new(Order::Four, 0.07).unwrap();
     let report = method.integrate(&mut kepler(), &mut state, END, until(3)).unwrap();
@@ -211,7 +191,8 @@ fn a_checkpoint_of_another_size_is_refused() {
         GaussCollocation::new(Order::Four, 0.07)
             .unwrap()
             .resume(&mut kepler(), &kept, &mut state, END, |_step| ControlFlow::Continue(()));
-    assert!(matches!(run, Err(IntegratorsError::WrongLength { quantity: "checkpoint.memory", .. })), "{run:?}");
+    let error = IntegratorsError::WrongMethod { expected: "GaussCollocation", found: "LobattoPair" };
+    assert_eq!(run, Err(error));
     assert_eq!(state, before);
     let unused = ReversibleComposition::new(SplittingScheme::Nystrom6, 0.1).unwrap().checkpoint(&state, report);
     let run = ReversibleComposition::new(SplittingScheme::Nystrom6, 0.1).unwrap().resume(
@@ -226,6 +207,54 @@ fn a_checkpoint_of_another_size_is_refused() {
     assert_eq!(state, before);
 }
 
+/// Of polynomials of degree one and of two points the memories have equal sizes.
+#[test]
+fn a_checkpoint_of_polynomials_is_refused_by_a_discrete_lagrangian() {
+    let mut compared = 0;
+    for (rule, order) in variational::all().filter(|&(_, order)| order == Order::Two) {
+        let mut state = start(&kepler_at(0.2, 0.0));
+        let mut method = VariationalIntegrator::new(rule, order, 0.07).unwrap();
+        let report = method.integrate(&Kepler, &mut state, END, until(3)).unwrap();
+        let kept = method.checkpoint(&state, report);
+        let mut other = elsewhere(4);
+        let run = DiscreteEulerLagrange::new(0.07)
+            .unwrap()
+            .resume(&Midpoint, &kept, &mut other, END, |_step| ControlFlow::Continue(()));
+        let (expected, found) = ("DiscreteEulerLagrange", "VariationalIntegrator");
+        assert_eq!(run, Err(IntegratorsError::WrongMethod { expected, found }));
+        assert_eq!(other, elsewhere(4));
+        compared += 1;
+    }
+    assert_ne!(compared, 0);
+}
+
+/// A run that cannot begin leaves the density alone, too.
+#[test]
+fn a_refused_run_of_reversible_steps_leaves_the_density() {
+    let mut state = start(&kepler_at(0.5, 0.0));
+    let mut method = ReversibleComposition::new(SplittingScheme::Nystrom6, 0.1).unwrap();
+    let report = method.integrate(&mut growing(), &Distance, &mut state, END, until(3)).unwrap();
+    let kept = method.checkpoint(&state, report);
+    method.integrate(&mut growing(), &Distance, &mut state, END, until(7)).unwrap();
+    let (density, mut other) = (method.density(), elsewhere(4));
+    let run = method.resume(&mut growing(), &Distance, &kept, &mut other, f64::NAN, |_step| ControlFlow::Continue(()));
+    assert_refused(&run, &other);
+    assert_ne!(kept, method.checkpoint(kept.state(), kept.report()));
+    assert_eq!(method.density(), density);
+}
+
+/// A run without a step knows no next one.
+#[test]
+fn a_checkpoint_without_a_next_step_is_refused() {
+    let mut top = Top::new([1.0, 2.0, 2.5], [0.0, 0.0, 1.0]);
+    let (mut state, mut method) = (start(&TOP), AdaptiveMuntheKaas::new(Tolerance::relative(1e-11).unwrap()));
+    let t = state.time;
+    let report = method.integrate_to(&mut top, &mut state, t).unwrap();
+    let kept = method.checkpoint(&state, report);
+    let run = method.resume(&mut top, &kept, &mut state, END, |_step| ControlFlow::Continue(()));
+    assert_eq!(run, Err(IntegratorsError::NotPositive { quantity: "checkpoint.numbers", value: 0.0 }));
+}
+
 /// A matrix is read with its exchanges of rows: a row that is none is refused.
 #[cfg(feature = "serde")]
 #[test]
@@ -234,19 +263,14 @@ fn a_written_checkpoint_with_an_impossible_row_is_refused() {
     let mut method = GaussCollocation::new(Order::Two, 0.07).unwrap();
     let report = method.integrate(&mut kepler(), &mut state, END, until(3)).unwrap();
     let written = serde_json::to_value(method.checkpoint(&state, report)).unwrap();
-    for wrong in [4.0, -1.0, 1e300] {
+    for wrong in [4.0, -1.0, 1e300, 1.5] {
         let mut value = written.clone();
         value["numbers"][2] = serde_json::json!(wrong);
         let kept: Checkpoint = serde_json::from_value(value).unwrap();
         let before = state.clone();
         let run = method.resume(&mut kepler(), &kept, &mut state, END, |_step| ControlFlow::Continue(()));
-        assert!(
-            matches!(
-                run,
-                Err(IntegratorsError::OutsideMatrix { quantity: "checkpoint.numbers", column: 1, dimension: 4, .. })
-            ),
-            "{run:?}"
-        );
+        let quantity = "checkpoint.numbers";
+        assert_eq!(run, Err(IntegratorsError::InvalidRow { quantity, index: 2, value: wrong, dimension: 4 }));
         assert_eq!(state, before);
     }
 }

@@ -1,6 +1,8 @@
 //! Tests of the methods that keep what the motion keeps: one binary, one module for each method.
 
 mod continued;
+#[path = "../../../integrators/tests/it/continuing.rs"]
+mod continuing;
 mod discrete_gradient;
 mod gauss_collocation;
 mod lie_group;

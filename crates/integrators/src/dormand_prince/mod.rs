@@ -66,6 +66,7 @@ pub struct DormandPrincePair;
 impl RungeKuttaPair for DormandPrincePair {}
 
 impl RungeKuttaCoefficients for DormandPrincePair {
+    const NAME: &'static str = "DormandPrince853";
     const STAGES: usize = 16;
     const NODES: &'static [f64] = &c::C;
     const ROWS: &'static [(usize, Weights)] = &c::ROWS;

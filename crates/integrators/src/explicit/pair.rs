@@ -15,6 +15,8 @@ pub(crate) type Weights = &'static [(usize, f64)];
 
 /// What makes a pair of formulas. Stages are counted from zero.
 pub trait RungeKuttaCoefficients: Copy + core::fmt::Debug {
+    /// The name of the method that steps with the pair.
+    const NAME: &'static str;
     /// Stages of all kinds.
     const STAGES: usize;
     /// The times of the stages, as parts of the step.

@@ -67,7 +67,8 @@ impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
     /// checkpoint. To the same end the run takes the same steps, to the last bit.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method and
+    /// [`IntegratorsError::WrongLength`] for one of another system. The state is then left alone.
     pub fn resume<F: Field<T>>(
         &mut self,
         field: &mut F,
@@ -130,10 +131,12 @@ impl<P: RungeKuttaPair, T: Real, F: Field<T>> EmbeddedPair<T, F> for RungeKutta<
     ) -> Result<f64, IntegratorsError<F::Error>> {
         check_field::<T, F>(field)?;
         let n = field.dimension();
-        if let Some(checkpoint) = resumed {
-            checkpoint.open(state, n, n + 1, &[0])?;
+        match resumed {
+            None => check_run(n, state, end)?,
+            Some(checkpoint) => {
+                checkpoint.open(P::NAME, [n, n + 1], &[0], state, |state| check_run(n, state, end))?;
+            }
         }
-        check_run(n, state, end)?;
         self.components = n;
         self.memory.resize(Self::count() * n, T::zero());
         self.magnitudes.resize(n, 0.0);
@@ -259,12 +262,9 @@ impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
         let (n, RunSoFar { report, time_carry, next, .. }) = (self.components, *progress);
         let ends = &self.memory[P::STAGES * n..];
         let (values, carry) = (row(ends, Rows::TRIAL, n).to_vec(), row(ends, Rows::TRIAL + 1, n).to_vec());
-        Checkpoint {
-            state: State { time, values, carry, time_carry, run: None },
-            report,
-            memory: row(&self.memory, P::END, n).to_vec(),
-            numbers: core::iter::once(&next).chain(&self.magnitudes_at_end).copied().collect(),
-        }
+        let state = State { time, values, carry, time_carry, run: None };
+        let numbers = core::iter::once(&next).chain(&self.magnitudes_at_end).copied().collect();
+        Checkpoint::of(P::NAME, state, report, row(&self.memory, P::END, n).to_vec(), numbers)
     }
 
     /// Whether the step that is about to be accepted is near the limit of stability: see [`Report::was_stiff`].

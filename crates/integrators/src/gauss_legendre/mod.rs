@@ -29,6 +29,8 @@ use crate::field::largest_lane;
 use crate::state::{check_finite, check_run, check_step, check_sums, compensated_add};
 use crate::{Checkpoint, Ending, Field, IntegratorsError, Order, Report, State, Step};
 
+/// The name in a checkpoint.
+const NAME: &str = "GaussLegendre";
 /// Sweeps over the stages after which a step is given up.
 const MOST_SWEEPS: usize = 100;
 /// Values that settle in fewer sweeps were at rest.
@@ -119,33 +121,19 @@ impl<T: Real> GaussLegendre<T> {
         end: f64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.follow(field, None, state, end, observer)
+        self.run(field, None, state, end, observer)
     }
 
     /// The run where it stands, to be continued by [`resume`](Self::resume): the state and the report of a run of this method that has
     /// ended or that the observer has stopped.
     #[must_use]
     pub fn checkpoint(&self, state: &State<T>, report: Report) -> Checkpoint<T> {
-        Checkpoint::of(state.clone(), report, self.workspace.increments.clone(), Vec::new())
+        Checkpoint::of(NAME, state.clone(), report, self.workspace.increments.clone(), Vec::new())
     }
 
-    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
-    /// checkpoint. To the same end the run takes the same steps, to the last bit.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
-    pub fn resume<F: Field<T>>(
-        &mut self,
-        field: &mut F,
-        checkpoint: &Checkpoint<T>,
-        state: &mut State<T>,
-        end: f64,
-        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.follow(field, Some(checkpoint), state, end, observer)
-    }
+    crate::resumed_run!(<F> [F: Field<T>] field: &mut F, IntegratorsError<F::Error>);
 
-    fn follow<F: Field<T>>(
+    fn run<F: Field<T>>(
         &mut self,
         field: &mut F,
         resumed: Option<&Checkpoint<T>>,
@@ -154,14 +142,14 @@ impl<T: Real> GaussLegendre<T> {
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
         match self.order {
-            Order::Two => self.run(&STAGES_1, field, resumed, state, end, observer),
-            Order::Four => self.run(&STAGES_2, field, resumed, state, end, observer),
-            Order::Six => self.run(&STAGES_3, field, resumed, state, end, observer),
-            Order::Eight => self.run(&STAGES_4, field, resumed, state, end, observer),
+            Order::Two => self.run_with(&STAGES_1, field, resumed, state, end, observer),
+            Order::Four => self.run_with(&STAGES_2, field, resumed, state, end, observer),
+            Order::Six => self.run_with(&STAGES_3, field, resumed, state, end, observer),
+            Order::Eight => self.run_with(&STAGES_4, field, resumed, state, end, observer),
         }
     }
 
-    fn run<const S: usize, F: Field<T>>(
+    fn run_with<const S: usize, F: Field<T>>(
         &mut self,
         tableau: &Tableau<S>,
         field: &mut F,
@@ -171,10 +159,10 @@ impl<T: Real> GaussLegendre<T> {
         mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
         let n = field.dimension();
-        if let Some(checkpoint) = resumed {
-            checkpoint.open(state, S * n, 0, &[])?;
+        match resumed {
+            None => check_run(n, state, end)?,
+            Some(checkpoint) => checkpoint.open(NAME, [S * n, 0], &[], state, |state| check_run(n, state, end))?,
         }
-        check_run(n, state, end)?;
         let work = &mut self.workspace;
         work.increments.resize(S * n, T::zero());
         work.guess.resize(S * n, T::zero());

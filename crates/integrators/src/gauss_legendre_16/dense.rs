@@ -1,6 +1,6 @@
 //! An accepted step, with the state at any time within it.
 
-use super::stages::Workspace;
+use super::stages::{NAME, Workspace};
 use super::tableau::LEGENDRE;
 use crate::accepted::AcceptedStep;
 use crate::legendre::integrals;
@@ -43,9 +43,8 @@ impl<'a> CollocationStep<'a> {
     /// The run at the end of this step, to be written down and continued.
     #[must_use]
     pub fn checkpoint(&self) -> Checkpoint {
-        let (memory, numbers) = self.work.saved();
         let State { values, carry, .. } = self.state;
-        self.step.progress.checkpoint(self.step.end, values, carry, memory, numbers)
+        self.step.progress.checkpoint(NAME, self.step.end, values, carry, self.work.saved())
     }
 
     /// Writes the state (q, v) at a time within the step to `out`.

@@ -33,7 +33,7 @@ use core::ops::ControlFlow;
 use piola_numerics::{Kernel, dispatch};
 
 pub use self::dense::CollocationStep;
-use self::stages::Workspace;
+use self::stages::{NAME, Workspace};
 use self::tableau::Stages;
 use crate::collocation::{Control, Plan, follow};
 use crate::events::stopped_by;
@@ -161,7 +161,8 @@ impl GaussLegendre16 {
     /// checkpoint. To the same end the run takes the same steps, to the last bit.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method and
+    /// [`IntegratorsError::WrongLength`] for one of another system. The state is then left alone.
     pub fn resume<F: SecondOrder<Stages>>(
         &mut self,
         field: &mut F,
@@ -193,11 +194,13 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
         check_freedom::<Stages, F>(field)?;
         let n = field.freedom();
         method.work.begin(n);
-        if let Some(checkpoint) = resumed {
-            checkpoint.open(state, 8 * n, 5, &[1, 4])?;
-            method.work.restore(&checkpoint.memory, [checkpoint.numbers[3], checkpoint.numbers[4]]);
+        match resumed {
+            None => check_run(2 * n, state, end)?,
+            Some(checkpoint) => {
+                checkpoint.open(NAME, [8 * n, 5], &[1, 4], state, |state| check_run(2 * n, state, end))?;
+                method.work.restore(&checkpoint.memory, [checkpoint.numbers[3], checkpoint.numbers[4]]);
+            }
         }
-        check_run(2 * n, state, end)?;
         let (tolerance, equal) = match method.control {
             Control::Adaptive(tolerance) => (tolerance, None),
             Control::Fixed(longest) => (ROUNDING, Some(longest)),

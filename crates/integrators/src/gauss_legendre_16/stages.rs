@@ -7,6 +7,8 @@ use crate::collocation::{Attempt, Collocation};
 use crate::state::{check_finite, compensated_add};
 use crate::{IntegratorsError, SecondOrder, State};
 
+/// The name in a checkpoint.
+pub(super) const NAME: &str = "GaussLegendre16";
 /// Sweeps after which a step is given up.
 const MOST_SWEEPS: u64 = 40;
 /// Changes larger than the one before after which sweeps are given up.

@@ -2,7 +2,7 @@
 
 use piola_numerics::Real;
 
-use super::stages::Workspace;
+use super::stages::{NAME, Workspace};
 use crate::accepted::AcceptedStep;
 use crate::events::Interpolated;
 use crate::number_and_times;
@@ -44,9 +44,8 @@ impl<'a, T: Real> GaussRadauStep<'a, T> {
     /// The run at the end of this step, to be written down and continued.
     #[must_use]
     pub fn checkpoint(&self) -> Checkpoint<T> {
-        let (memory, numbers) = self.work.saved();
         let State { values, carry, .. } = self.state;
-        self.step.progress.checkpoint(self.step.end, values, carry, memory, numbers)
+        self.step.progress.checkpoint(NAME, self.step.end, values, carry, self.work.saved())
     }
 
     /// Writes the state (q, v) at a time within the step to `out`.

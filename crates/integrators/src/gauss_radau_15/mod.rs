@@ -43,7 +43,7 @@ use core::ops::ControlFlow;
 use piola_numerics::{Kernel, Real, dispatch};
 
 pub use self::dense::GaussRadauStep;
-use self::stages::Workspace;
+use self::stages::{NAME, Workspace};
 use crate::collocation::{Control, Plan, follow};
 use crate::events::{Stop, begin, locate, stopped_by};
 use crate::second_order::check_freedom;
@@ -237,7 +237,8 @@ impl<T: Real> GaussRadau15<T> {
     /// checkpoint. To the same end the run takes the same steps, to the last bit.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method and
+    /// [`IntegratorsError::WrongLength`] for one of another system. The state is then left alone.
     pub fn resume<F: SecondOrder<T>>(
         &mut self,
         field: &mut F,
@@ -307,11 +308,13 @@ where
         let n = field.freedom();
         let work = &mut method.work;
         work.begin(n);
-        if let Some(checkpoint) = resumed {
-            checkpoint.open(state, 8 * n, 5, &[1, 4])?;
-            work.restore(&checkpoint.memory, [checkpoint.numbers[3], checkpoint.numbers[4]]);
+        match resumed {
+            None => check_run(2 * n, state, end)?,
+            Some(checkpoint) => {
+                checkpoint.open(NAME, [8 * n, 5], &[1, 4], state, |state| check_run(2 * n, state, end))?;
+                work.restore(&checkpoint.memory, [checkpoint.numbers[3], checkpoint.numbers[4]]);
+            }
         }
-        check_run(2 * n, state, end)?;
         let (aim, equal) = match method.control {
             Control::Adaptive(epsilon) => (epsilon.max(work.smallest_ratio()), None),
             Control::Fixed(longest) => (0.0, Some(longest)),

@@ -7,6 +7,8 @@ use crate::collocation::{Attempt, Collocation};
 use crate::state::{check_finite, compensated_add};
 use crate::{IntegratorsError, SecondOrder, State};
 
+/// The name in a checkpoint.
+pub(super) const NAME: &str = "GaussRadau15";
 /// Sweeps after which a fixed step is given up.
 const MOST_SWEEPS: u64 = 40;
 /// Values that settle in fewer sweeps may have been at rest.

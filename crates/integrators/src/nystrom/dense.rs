@@ -89,18 +89,9 @@ impl<'a, P: NystromPair, T: Real, F: SecondOrder<T>> NystromStep<'a, P, T, F> {
         let (n, RunSoFar { mut report, time_carry, next, .. }) = (self.method.freedom, self.step.progress);
         report.evaluations += self.evaluations;
         let [q, v] = self.method.magnitudes_at_end;
-        Checkpoint {
-            state: State {
-                time: self.step.end,
-                values: self.values().to_vec(),
-                carry: self.rows(Rows::TRIAL + 2, 2).to_vec(),
-                time_carry,
-                run: None,
-            },
-            report,
-            memory: row(&self.method.memory, P::END, n).to_vec(),
-            numbers: vec![next, q, v],
-        }
+        let (values, carry) = (self.values().to_vec(), self.rows(Rows::TRIAL + 2, 2).to_vec());
+        let state = State { time: self.step.end, values, carry, time_carry, run: None };
+        Checkpoint::of(P::NAME, state, report, row(&self.method.memory, P::END, n).to_vec(), vec![next, q, v])
     }
 
     /// Writes the state (q, v) at a time within the step to `out`.

@@ -41,6 +41,8 @@ pub trait NystromPair: NystromCoefficients {}
 
 /// What makes a Nyström pair. Stages are counted from zero.
 pub trait NystromCoefficients: Copy + core::fmt::Debug {
+    /// The name of the method that steps with the pair.
+    const NAME: &'static str;
     /// Stages, with the one at the end of the step.
     const STAGES: usize;
     /// The times of the stages, as parts of the step.
@@ -154,6 +156,7 @@ pub struct NystromPair86;
 impl NystromPair for NystromPair86 {}
 
 impl NystromCoefficients for NystromPair86 {
+    const NAME: &'static str = "Nystrom86";
     const STAGES: usize = 9;
     const NODES: &'static [f64] = &order_8::C;
     const ROWS: &'static [Weights] = &order_8::ROWS;
@@ -185,6 +188,7 @@ pub struct NystromPair1210;
 impl NystromPair for NystromPair1210 {}
 
 impl NystromCoefficients for NystromPair1210 {
+    const NAME: &'static str = "Nystrom1210";
     const STAGES: usize = 18;
     const NODES: &'static [f64] = &order_12::C;
     const ROWS: &'static [Weights] = &order_12::ROWS;
@@ -258,7 +262,8 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
     /// checkpoint. To the same end the run takes the same steps, to the last bit.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method and
+    /// [`IntegratorsError::WrongLength`] for one of another system. The state is then left alone.
     pub fn resume<F: SecondOrder<T>>(
         &mut self,
         field: &mut F,

@@ -147,10 +147,12 @@ impl<P: NystromPair, T: Real, F: SecondOrder<T>> EmbeddedPair<T, F> for Nystrom<
             return Err(IntegratorsError::VelocityDependent);
         }
         let n = field.freedom();
-        if let Some(checkpoint) = resumed {
-            checkpoint.open(state, n, 3, &[0])?;
+        match resumed {
+            None => check_run(2 * n, state, end)?,
+            Some(checkpoint) => {
+                checkpoint.open(P::NAME, [n, 3], &[0], state, |state| check_run(2 * n, state, end))?;
+            }
         }
-        check_run(2 * n, state, end)?;
         self.freedom = n;
         self.memory.resize((P::STAGES + Rows::COUNT) * n, T::zero());
         self.argument.resize(n, T::zero());

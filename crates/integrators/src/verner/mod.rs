@@ -54,6 +54,7 @@ pub struct VernerPair;
 impl RungeKuttaPair for VernerPair {}
 
 impl RungeKuttaCoefficients for VernerPair {
+    const NAME: &'static str = "Verner98";
     const STAGES: usize = 26;
     const NODES: &'static [f64] = &c::C;
     const ROWS: &'static [(usize, Weights)] = &c::ROWS;

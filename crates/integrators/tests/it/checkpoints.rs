@@ -4,30 +4,18 @@ use core::ops::ControlFlow;
 
 use piola_integrators::{
     Checkpoint, Composition, DormandPrince853, Field, GaussLegendre, GaussLegendre16, GaussRadau15, IntegratorsError,
-    Nystrom86, Nystrom1210, Order, SecondOrder, SplittingScheme, State, Step, Tolerance, Verner98, separable,
+    Nystrom86, Nystrom1210, Order, ProcessedSplitting, SecondOrder, SplittingScheme, State, Tolerance, Verner98,
 };
 use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close};
 
-use crate::problems::{henon_heiles, kepler, kepler_at};
+use crate::continuing::{assert_refused, elsewhere, growing, until, written_and_read};
+use crate::problems::{henon_heiles, kepler, kepler_at, three_bodies};
 
 const END: f64 = 30.0;
 
 fn start() -> State {
     State::new(0.25, kepler_at(0.6, 0.0).to_vec()).unwrap()
-}
-
-/// Writes and reads a checkpoint, where the feature allows it.
-#[cfg(feature = "serde")]
-fn written_and_read(checkpoint: &Checkpoint) -> Checkpoint {
-    let text = serde_json::to_string(checkpoint).unwrap();
-    let read: Checkpoint = serde_json::from_str(&text).unwrap();
-    assert_eq!(read, *checkpoint);
-    read
-}
-#[cfg(not(feature = "serde"))]
-fn written_and_read(checkpoint: &Checkpoint) -> Checkpoint {
-    checkpoint.clone()
 }
 
 macro_rules! continued_runs_are_whole {
@@ -46,8 +34,12 @@ macro_rules! continued_runs_are_whole {
         for (number, checkpoint) in kept.into_iter().enumerate().step_by(7) {
             assert_eq!(checkpoint.state().values, seen[number]);
             let checkpoint = written_and_read(&checkpoint);
+            let mut state = elsewhere(4);
+            let refused =
+                $method.resume(&mut $field, &checkpoint, &mut state, f64::NAN, |_step| ControlFlow::Continue(()));
+            assert_refused(&refused, &state);
             // A new method, and a state that has nothing to do with it.
-            let mut continued = State::new(-1.0, vec![7.0; 4]).unwrap();
+            let mut continued = elsewhere(4);
             let mut next = number + 1;
             let resumed = $method
                 .resume(&mut $field, &checkpoint, &mut continued, END, |step| {
@@ -120,10 +112,35 @@ fn a_checkpoint_of_another_system_or_method_is_refused() {
     let untouched = state.clone();
     let run = GaussLegendre16::new(tolerance)
         .resume(&mut henon_heiles(), &kept, &mut state, END, |_| ControlFlow::Continue(()));
-    assert_eq!(run, Err(IntegratorsError::WrongLength { quantity: "checkpoint.memory", expected: 16, found: 4 }));
+    let found = "Verner98";
+    assert_eq!(run, Err(IntegratorsError::WrongMethod { expected: "GaussLegendre16", found }));
     let run = Nystrom86::new(tolerance).resume(&mut kepler(), &kept, &mut state, END, |_| ControlFlow::Continue(()));
-    assert_eq!(run, Err(IntegratorsError::WrongLength { quantity: "checkpoint.memory", expected: 2, found: 4 }));
+    assert_eq!(run, Err(IntegratorsError::WrongMethod { expected: "Nystrom86", found }));
+    let run =
+        Verner98::new(tolerance).resume(&mut three_bodies(), &kept, &mut state, END, |_| ControlFlow::Continue(()));
+    assert_eq!(run, Err(IntegratorsError::WrongLength { quantity: "checkpoint.memory", expected: 12, found: 4 }));
     assert_eq!(state, untouched);
+}
+
+/// Of methods whose memories have equal sizes, one cannot continue the other's run.
+#[test]
+fn a_checkpoint_of_gauss_legendre_is_refused_by_others() {
+    let (mut state, mut method) = (start(), GaussLegendre::new(Order::Four, 0.07).unwrap());
+    let report = method.integrate(&mut kepler(), &mut state, 7.0, until(3)).unwrap();
+    let kept = method.checkpoint(&state, report);
+    let mut state = elsewhere(4);
+    let run = ProcessedSplitting::new(0.07)
+        .unwrap()
+        .resume(&mut kepler(), &kept, &mut state, 7.0, 0, |_step| ControlFlow::Continue(()));
+    let error = IntegratorsError::WrongMethod { expected: "ProcessedSplitting", found: "GaussLegendre" };
+    assert_eq!(run, Err(error));
+    // Another order, another system.
+    let mut other = GaussLegendre::new(Order::Six, 0.07).unwrap();
+    let run = other.resume(&mut kepler(), &kept, &mut state, 7.0, |_step| ControlFlow::Continue(()));
+    assert_eq!(run, Err(IntegratorsError::WrongLength { quantity: "checkpoint.memory", expected: 12, found: 8 }));
+    let run = method.resume(&mut three_bodies(), &kept, &mut state, 7.0, |_step| ControlFlow::Continue(()));
+    assert_eq!(run, Err(IntegratorsError::WrongLength { quantity: "checkpoint.memory", expected: 24, found: 8 }));
+    assert_eq!(state, elsewhere(4));
 }
 
 #[test]
@@ -189,7 +206,7 @@ fn a_run_without_forces_can_be_kept() {
 
 #[cfg(feature = "serde")]
 #[test]
-fn a_checkpoint_whose_next_step_is_not_positive_is_refused() {
+fn a_written_checkpoint_without_a_positive_step_or_a_known_method_is_refused() {
     let tolerance = Tolerance::relative(1e-9).unwrap();
     let (mut state, mut kept) = (start(), None);
     Nystrom86::new(tolerance)
@@ -203,16 +220,10 @@ fn a_checkpoint_whose_next_step_is_not_positive_is_refused() {
     let kept: Checkpoint = serde_json::from_value(value).unwrap();
     let run = Nystrom86::new(tolerance).resume(&mut kepler(), &kept, &mut state, END, |_| ControlFlow::Continue(()));
     assert_eq!(run, Err(IntegratorsError::NotPositive { quantity: "checkpoint.numbers", value: -0.5 }));
-}
-
-/// Writes and reads a state, where the feature allows it.
-#[cfg(feature = "serde")]
-fn state_written_and_read(state: &State) -> State {
-    serde_json::from_str(&serde_json::to_string(state).unwrap()).unwrap()
-}
-#[cfg(not(feature = "serde"))]
-fn state_written_and_read(state: &State) -> State {
-    state.clone()
+    let mut value = serde_json::to_value(kept).unwrap();
+    value["method"] = serde_json::json!("Nystrom");
+    let error = serde_json::from_value::<Checkpoint>(value).unwrap_err().to_string();
+    assert!(error.starts_with("unknown variant `Nystrom`, expected one of `AdaptiveMuntheKaas`"), "{error}");
 }
 
 #[test]
@@ -227,12 +238,8 @@ fn stopped_runs_of_equal_steps_go_on_with_the_same_steps() {
         let report = method().integrate_to(&mut kepler(), &mut whole, 7.0).unwrap();
         for stop in [1, 13, report.steps - 1] {
             let mut state = start();
-            let first = method()
-                .integrate(&mut kepler(), &mut state, 7.0, |step| {
-                    if step.number == stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-                })
-                .unwrap();
-            let mut state = state_written_and_read(&state);
+            let first = method().integrate(&mut kepler(), &mut state, 7.0, until(stop)).unwrap();
+            let mut state = written_and_read(&state);
             let second = method().integrate_to(&mut kepler(), &mut state, 7.0).unwrap();
             assert_eq!((state, first.steps + second.steps), (whole.clone(), report.steps), "{scheme}, {stop}");
         }
@@ -242,12 +249,6 @@ fn stopped_runs_of_equal_steps_go_on_with_the_same_steps() {
 /// The force at the end of a step is kept for the next one; in a run that goes on it is computed anew, at the same moment.
 #[test]
 fn stopped_runs_with_forces_that_depend_on_time_go_on_too() {
-    let growing = || {
-        separable(2, |t: f64, q: &[f64], force: &mut [f64]| {
-            let factor = -(1.0 + 0.1 * t) / (q[0] * q[0] + q[1] * q[1]).powf(1.5);
-            force.copy_from_slice(&[factor * q[0], factor * q[1]]);
-        })
-    };
     for scheme in SplittingScheme::ALL {
         let method = || Composition::with_scheme(scheme, 0.07).unwrap();
         let start = || State::new(0.25, kepler_at(0.2, 0.0).to_vec()).unwrap();
@@ -255,9 +256,7 @@ fn stopped_runs_with_forces_that_depend_on_time_go_on_too() {
         let steps = method().integrate_to(&mut growing(), &mut whole, 7.0).unwrap().steps;
         for stop in 1..steps {
             let mut state = start();
-            let until =
-                |step: Step<'_>| if step.number == stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-            method().integrate(&mut growing(), &mut state, 7.0, until).unwrap();
+            method().integrate(&mut growing(), &mut state, 7.0, until(stop)).unwrap();
             method().integrate_to(&mut growing(), &mut state, 7.0).unwrap();
             assert_eq!(state, whole, "{scheme}, {stop}");
         }
@@ -277,11 +276,12 @@ fn gauss_legendre_continues_from_any_step() {
             .unwrap();
         for stop in [1, 2, 13, report.steps - 1] {
             let (mut state, mut first) = (start(), method());
-            let until =
-                |step: Step<'_>| if step.number == stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-            let stopped = first.integrate(&mut kepler(), &mut state, 7.0, until).unwrap();
+            let stopped = first.integrate(&mut kepler(), &mut state, 7.0, until(stop)).unwrap();
             let kept = written_and_read(&first.checkpoint(&state, stopped));
-            let mut continued = State::new(-1.0, vec![7.0; 4]).unwrap();
+            let mut continued = elsewhere(4);
+            let refused =
+                method().resume(&mut kepler(), &kept, &mut continued, f64::NAN, |_step| ControlFlow::Continue(()));
+            assert_refused(&refused, &continued);
             let mut next = stop;
             let resumed = method()
                 .resume(&mut kepler(), &kept, &mut continued, 7.0, |step| {
@@ -299,8 +299,7 @@ fn gauss_legendre_continues_from_any_step() {
 fn a_run_to_another_end_counts_its_own_steps() {
     let mut method = Composition::new(Order::Four, 0.07).unwrap();
     let mut state = State::new(0.0, kepler_at(0.2, 0.0).to_vec()).unwrap();
-    let stop = |step: Step<'_>| if step.number == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-    method.integrate(&mut kepler(), &mut state, 7.0, stop).unwrap();
+    method.integrate(&mut kepler(), &mut state, 7.0, until(3)).unwrap();
     let mut other = State::new(state.time, state.values.clone()).unwrap();
     other.carry.clone_from(&state.carry);
     let reports = [&mut state, &mut other].map(|state| method.integrate_to(&mut kepler(), state, 3.0).unwrap());

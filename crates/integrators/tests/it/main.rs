@@ -5,6 +5,7 @@ mod alloc;
 mod checkpoints;
 mod coefficients;
 mod collocation;
+mod continuing;
 mod dense;
 mod estimates;
 mod events;

@@ -2,9 +2,10 @@
 
 use core::ops::ControlFlow;
 
-use piola_integrators::{Checkpoint, IntegratorsError, ProcessedSplitting, State, Step, separable};
+use piola_integrators::{IntegratorsError, ProcessedSplitting, Report, State, separable};
 use piola_testkit::{allocations_in, assert_order, relative_error};
 
+use crate::continuing::{assert_refused, elsewhere, growing, until, written_and_read};
 use crate::problems::{FIGURE_EIGHT, kepler, kepler_at, three_bodies};
 use crate::splittings::assert_conditions;
 
@@ -99,41 +100,63 @@ fn energy_does_not_drift_and_angular_momentum_is_kept() {
     assert!(0.0 < first && last < 1.05 * first, "{first:e}, {last:e}");
 }
 
-/// Writes and reads a checkpoint, where the feature allows it.
-#[cfg(feature = "serde")]
-fn written_and_read(checkpoint: &Checkpoint) -> Checkpoint {
-    serde_json::from_str(&serde_json::to_string(checkpoint).unwrap()).unwrap()
-}
-#[cfg(not(feature = "serde"))]
-fn written_and_read(checkpoint: &Checkpoint) -> Checkpoint {
-    checkpoint.clone()
-}
-
 #[test]
 fn a_run_continued_from_a_checkpoint_is_the_whole_run() {
-    let mut growing = separable(2, |t: f64, q: &[f64], force: &mut [f64]| {
-        let factor = -(1.0 + 0.1 * t) / (q[0] * q[0] + q[1] * q[1]).powf(1.5);
-        force.copy_from_slice(&[factor * q[0], factor * q[1]]);
-    });
     let mut whole = start(0.2);
-    let steps = method(0.07).integrate(&mut growing, &mut whole, 7.0, 1, |_| ControlFlow::Continue(())).unwrap().steps;
+    let steps =
+        method(0.07).integrate(&mut growing(), &mut whole, 7.0, 1, |_| ControlFlow::Continue(())).unwrap().steps;
     for stop in [1, 2, 40, steps - 1] {
         let (mut state, mut stopping) = (start(0.2), method(0.07));
-        let until =
-            |step: Step<'_>| if step.number == stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-        let stopped = stopping.integrate(&mut growing, &mut state, 7.0, 1, until).unwrap();
+        let stopped = stopping.integrate(&mut growing(), &mut state, 7.0, 1, until(stop)).unwrap();
         let kept = written_and_read(&stopping.checkpoint(&state, stopped));
-        let mut continued = State::new(-1.0, vec![7.0; 4]).unwrap();
+        let mut continued = elsewhere(4);
+        let refused =
+            method(0.07).resume(&mut growing(), &kept, &mut continued, f64::NAN, 1, |_step| ControlFlow::Continue(()));
+        assert_refused(&refused, &continued);
         let report = method(0.07)
-            .resume(&mut growing, &kept, &mut continued, (7.0, 1), |_step| ControlFlow::Continue(()))
+            .resume(&mut growing(), &kept, &mut continued, 7.0, 1, |_step| ControlFlow::Continue(()))
             .unwrap();
         assert_eq!((&continued, report.steps), (&whole, steps), "{stop}");
     }
     let mut state = start(0.2);
-    let unused = method(0.07).checkpoint(&state, piola_integrators::Report::begin());
-    let run = method(0.07).resume(&mut growing, &unused, &mut state, (7.0, 1), |_step| ControlFlow::Continue(()));
+    let unused = method(0.07).checkpoint(&state, Report::begin());
+    let run = method(0.07).resume(&mut growing(), &unused, &mut state, 7.0, 1, |_step| ControlFlow::Continue(()));
     assert_eq!(run, Err(IntegratorsError::WrongLength { quantity: "checkpoint.memory", expected: 8, found: 0 }));
     assert_eq!(state, start(0.2));
+}
+
+/// The kernel's coordinates depend on the length of the step: where another end changes it, the run is that from the shown state.
+#[test]
+fn a_run_continued_to_another_end_is_one_from_the_shown_state() {
+    let (mut state, mut stopping) = (start(0.2), method(0.07));
+    let stopped = stopping.integrate(&mut growing(), &mut state, 7.0, 1, until(40)).unwrap();
+    let kept = written_and_read(&stopping.checkpoint(&state, stopped));
+    for end in [3.0, 6.0, 9.0, 2.0] {
+        let (mut continued, mut anew) = (elsewhere(4), state.clone());
+        let report = method(0.07)
+            .resume(&mut growing(), &kept, &mut continued, end, 0, |_step| ControlFlow::Continue(()))
+            .unwrap();
+        let other = method(0.07).integrate_to(&mut growing(), &mut anew, end).unwrap();
+        assert_eq!((&continued, report), (&anew, stopped.then(other)), "to {end}");
+    }
+}
+
+/// A processor that fails where the run ends: the kernel is ahead of the state, and nothing can be continued.
+#[test]
+fn a_checkpoint_after_the_processor_has_failed_is_empty() {
+    let mut forces = 0;
+    let mut failing = separable(1, |_t, q: &[f64], force: &mut [f64]| {
+        // Eleven of the processor, three steps of seven, and one that begins the first.
+        force[0] = if forces < 11 + 3 * 7 + 1 { -q[0] } else { f64::NAN };
+        forces += 1;
+    });
+    let (mut state, mut method) = (State::new(0.0, vec![1.0, 0.0]).unwrap(), method(0.125));
+    let error = method.integrate_to(&mut failing, &mut state, 0.375).unwrap_err();
+    assert!(matches!(error, IntegratorsError::NotFinite { quantity: "rate", .. }), "{error:?}");
+    assert_eq!(state, State::new(0.0, vec![1.0, 0.0]).unwrap());
+    let kept = method.checkpoint(&state, Report::begin());
+    let run = method.resume(&mut failing, &kept, &mut state, 0.375, 0, |_step| ControlFlow::Continue(()));
+    assert_eq!(run, Err(IntegratorsError::WrongLength { quantity: "checkpoint.memory", expected: 4, found: 0 }));
 }
 
 #[test]

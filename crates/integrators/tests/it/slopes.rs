@@ -1,8 +1,10 @@
-//! Errors fall with the order over two decades and more, within a tenth: every method, and the dense output of each.
+//! Errors fall with the order over two decades and more, within a tenth: the implicit methods, the pairs and Gauss–Radau, and their dense
+//! output. Splittings are in `splittings` and `processed`.
 //!
-//! A slope is straight where neither the next power nor rounding shows. Runs are therefore made with 31 digits where the method allows
-//! it; errors then end where the coefficients do, which are doubles. For `GaussLegendre16`, which runs in doubles, the motion is a
-//! spiral q = cosh ωt in the complex plane with ω = exp(iπ/4): there the next power of the error is at right angles to the first.
+//! A slope is straight where neither the next power nor rounding shows. The explicit pairs and `GaussRadau15` therefore run with 31
+//! digits; their errors end where the coefficients do, which are doubles. `GaussLegendre` and `GaussLegendre16` run in doubles. The
+//! motion of the latter is a spiral q = cosh ωt in the complex plane with ω = exp(iπ/4): there the next power of the error is at right
+//! angles to the first.
 
 use core::convert::Infallible;
 use core::ops::ControlFlow;

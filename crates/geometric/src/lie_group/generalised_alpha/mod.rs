@@ -23,13 +23,13 @@ mod newton;
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::{DIRECTIONS, check_step};
-use piola_integrators::{Checkpoint, IntegratorsError, Report, State, Step, unobserved};
+use piola_integrators::{Checkpoint, IntegratorsError, Report, State, Step, resumed_run, unobserved};
 use piola_numerics::{Gradient, Real};
 
 use self::newton::Workspace;
 use super::LieGroup;
 use super::run::check_start;
-use crate::fixed_step::take_checked_steps;
+use crate::fixed_step::take_equal_steps;
 use crate::kept::{Kept, checkpoint_of};
 
 /// A mechanical system on a Lie group: q̇ = q v, M(q) v̇ = f(t, q, v), generic over its scalar.
@@ -212,26 +212,11 @@ impl<T: Real> GeneralisedAlpha<T> {
         self.run(system, None, state, end, observer)
     }
 
-    checkpoint_of!(work);
+    checkpoint_of!(work, "GeneralisedAlpha");
 
-    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
-    /// checkpoint. To the same end the run takes the same steps, to the last bit.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
-    pub fn resume<F>(
-        &mut self,
-        system: &mut F,
-        checkpoint: &Checkpoint<T>,
-        state: &mut State<T>,
-        end: f64,
-        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegratorsError<F::Error>>
-    where
-        F: GroupMotion<Gradient<T, DIRECTIONS>, Group: LieGroup<T>>,
-    {
-        self.run(system, Some(checkpoint), state, end, observer)
-    }
+    resumed_run!(
+        <F> [F: GroupMotion<Gradient<T, DIRECTIONS>, Group: LieGroup<T>>] system: &mut F, IntegratorsError<F::Error>
+    );
 
     fn run<F>(
         &mut self,
@@ -246,16 +231,16 @@ impl<T: Real> GeneralisedAlpha<T> {
     {
         let (length, n) = newton::lengths::<T, _>(system.group());
         self.work.resize(length, n);
-        let mut before = resumed.map_or(Ok(Report::begin()), |checkpoint| self.work.restore(checkpoint, state))?;
-        check_start::<T, _>(system.group(), n, state, end)?;
         let Self { parameters, work, .. } = self;
+        let check = |state: &mut State<T>| check_start::<T, _>(system.group(), n, state, end);
+        let mut before = work.start(Self::NAME, resumed, state, check)?;
         if (end - state.time).abs() <= 0.0 {
             return Ok(before);
         }
         if resumed.is_none() {
             before.evaluations += work.begin(*parameters, system, state)?;
         }
-        take_checked_steps((before, self.step), state, end, observer, |state, h| {
+        take_equal_steps((before, self.step), state, end, observer, |state, h| {
             work.advance(*parameters, system, state, h)
         })
     }
