@@ -193,7 +193,8 @@ impl AnyHistoryModel {
                 times
                     .iter()
                     .map(|time| {
-                        vec![mu, 1.5 * mu, 0.7 * largest, 0.1 * largest, 0.2 * largest, 5.0, 0.1 * largest * time]
+                        // The saturation stress is at least the yield stress.
+                        vec![mu, 1.5 * mu, 0.7 * largest, 0.1 * largest, 0.9 * largest, 5.0, 0.1 * largest * time]
                     })
                     .collect()
             }
