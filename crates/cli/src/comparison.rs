@@ -36,7 +36,9 @@ pub(crate) fn table(measurements: &Measurements, comparison: &Comparison) -> Str
     );
     let least = comparison.best().and_then(|(_, fit)| fit.criteria.aicc);
     for (law, fit) in comparison.fits() {
-        let _ = write!(text, "{:<16}{:>3}", law.to_string(), fit.parameters.len());
+        // Parameters that are searched for: those that bounds hold do not count in AICc.
+        let searched = fit.parameters.iter().filter(|parameter| parameter.state != State::Held).count();
+        let _ = write!(text, "{:<16}{searched:>3}", law.to_string());
         for (test, width) in fit.tests.iter().zip(&widths) {
             let width = width - 2;
             let _ = write!(text, "{:>width$.2} %", 100.0 * test.relative_rms);
@@ -152,6 +154,9 @@ fn parameter(estimate: &SolidParameter, unit: Option<&str>) -> String {
     match (estimate.standard_error, estimate.interval, estimate.state) {
         (Some(error), Some([low, high]), _) => {
             let _ = write!(line, " ± {:<10}{unit}  [{}, {}]", format!("{error:.1e}"), short(low), short(high));
+        }
+        (_, _, State::Held) => {
+            let _ = write!(line, "{unit}  held");
         }
         (_, _, State::AtBound) => {
             let _ = write!(line, "{unit}  at its bound");

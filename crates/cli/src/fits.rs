@@ -16,13 +16,39 @@ use crate::{Exit, comparison, flows, histories};
 /// The names of laws with history, also of a program that is built without them.
 const WITH_HISTORY: [&str; 4] = ["bergstrom-boyce", "reese-govindjee", "ogden-roxburgh", "viscoplastic"];
 
-pub(crate) fn fit(arguments: &FitArguments) -> Exit {
-    let is_of_sides = |name: &String| name.parse::<SidesModel>().is_ok();
-    if arguments.laws.iter().any(is_of_sides) {
-        return with_sides(arguments);
+/// A kind of laws that are fitted to the same kind of tables.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Rubber,
+    Sides,
+    History,
+}
+
+/// The kind of a law by its name; none of an unknown one.
+fn kind(name: &str) -> Option<Kind> {
+    if WITH_HISTORY.contains(&name) {
+        Some(Kind::History)
+    } else if name.parse::<SidesModel>().is_ok() {
+        Some(Kind::Sides)
+    } else {
+        name.parse::<fitting::AnyModel>().ok().map(|_| Kind::Rubber)
     }
-    if arguments.laws.iter().any(|name| WITH_HISTORY.contains(&name.as_str())) {
-        return histories::fit(arguments);
+}
+
+pub(crate) fn fit(arguments: &FitArguments) -> Exit {
+    let mut kinds = arguments.laws.iter().filter_map(|name| kind(name));
+    let first = kinds.next();
+    if kinds.any(|other| Some(other) != first) {
+        let error = MeasuredError::Argument {
+            argument: format!("--law {}", arguments.laws.join(" --law ")),
+            valid: "laws of one kind, because each kind has tables of its own: of rubber, of foam and fibres, or with history",
+        };
+        return refused(&error, arguments.json);
+    }
+    match first {
+        Some(Kind::Sides) => return with_sides(arguments),
+        Some(Kind::History) => return histories::fit(arguments),
+        _ => {}
     }
     let interrupt = Interrupt::listen();
     let prepared = flows::only(&arguments.only).and_then(|only| {

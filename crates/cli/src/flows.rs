@@ -1,5 +1,6 @@
 //! The commands of viscometry.
 
+use core::fmt::Display;
 use core::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -35,7 +36,7 @@ pub(crate) fn recover(arguments: &RecoverArguments) -> Exit {
                 .map_err(|error| if flow.flow == "capillary" { error } else { too_many(several) })?,
         };
         let first = tables.first().map(Measured::name).unwrap_or_default();
-        Ok((recovery, folder(flow, "recover", &first)?, tables))
+        Ok((recovery, Folder::prepare(&out(flow.out.as_deref(), "recover", &first))?, tables))
     });
     match prepared {
         Ok((recovery, folder, tables)) => {
@@ -76,22 +77,18 @@ pub(crate) fn fit(arguments: &FitFlowArguments) -> Exit {
         if arguments.profile {
             request.intervals = Intervals::Profile;
         }
-        let comparison =
-            watched(&measured.name(), &interrupt, |watch| rheology::compare_until(&measured, &request, watch))?;
-        if let (None, Some((_, refused))) = (comparison.fits().next(), comparison.refusals().next()) {
-            return Err(refused.clone().into());
-        }
-        Ok((comparison, folder(flow, "fit-flow", &measured.name())?, measured))
+        let found = watched(&measured.name(), &interrupt, |watch| rheology::compare_until(&measured, &request, watch))?;
+        Ok((measured, found))
     });
     match prepared {
-        Ok((comparison, folder, measured)) => {
-            let written = comparison.write(&folder, &measured);
-            let text = if flow.json { comparison.summary(&measured) } else { comparison.table(&measured) };
-            show(&text, flow.json, &folder, &written);
-            let refusals: Vec<String> =
-                comparison.refusals().map(|(fluid, refusal)| format!("{fluid}: {refusal}")).collect();
-            let is_complete = comparison.is_complete();
-            settled(&comparison, is_complete, &refusals, !arguments.fluids.is_empty(), &written)
+        Ok((measured, found)) => {
+            let results = Results {
+                table: &|| found.table(&measured),
+                summary: &|| found.summary(&measured),
+                write: &|folder| found.write(folder, &measured),
+            };
+            let out = out(flow.out.as_deref(), "fit-flow", &measured.name());
+            finished(&found, &results, &out, (flow.json, !arguments.fluids.is_empty()))
         }
         Err(error) => refused(&error, flow.json),
     }
@@ -145,6 +142,37 @@ pub(crate) fn watched<T>(name: &str, interrupt: &Interrupt, run: impl FnOnce(Wat
     });
     progress.finish();
     result
+}
+
+/// The results of a comparison: a table for a reader, `summary.json`, and all files.
+pub(crate) struct Results<'r> {
+    pub(crate) table: &'r dyn Fn() -> String,
+    pub(crate) summary: &'r dyn Fn() -> String,
+    pub(crate) write: &'r dyn Fn(&Folder) -> Written,
+}
+
+/// Shows and writes the results of a comparison. Where no model has a fit, it is refused for the reason of the first model.
+pub(crate) fn finished<M: Copy + PartialEq + Display, F: Judged, E: Clone + Display>(
+    comparison: &Comparison<M, F, E>,
+    results: &Results<'_>,
+    out: &Path,
+    (json, are_named): (bool, bool),
+) -> Exit
+where
+    MeasuredError: From<E>,
+{
+    if let (None, Some((_, why))) = (comparison.fits().next(), comparison.refusals().next()) {
+        return refused(&why.clone().into(), json);
+    }
+    let folder = match Folder::prepare(out) {
+        Ok(folder) => folder,
+        Err(error) => return refused(&error.into(), json),
+    };
+    let written = (results.write)(&folder);
+    let text = if json { (results.summary)() } else { (results.table)() };
+    show(&text, json, &folder, &written);
+    let refusals: Vec<String> = comparison.refusals().map(|(model, refusal)| format!("{model}: {refusal}")).collect();
+    settled(comparison, comparison.is_complete(), &refusals, are_named, &written)
 }
 
 /// The exit of a comparison. Models that nobody named do not decide it, unless one of them is the best.
@@ -217,9 +245,9 @@ fn load(path: &Path, arguments: &FlowArguments) -> Result<Measured, MeasuredErro
     Measured::load_as(path, kind, &reading)
 }
 
-fn folder(arguments: &FlowArguments, command: &str, name: &str) -> Result<Folder, MeasuredError> {
-    let beside: PathBuf = Path::new("out").join(format!("{command}-{name}"));
-    Ok(Folder::prepare(arguments.out.as_ref().unwrap_or(&beside))?)
+/// The folder that is given, or out/COMMAND-NAME.
+pub(crate) fn out(given: Option<&Path>, command: &str, name: &str) -> PathBuf {
+    given.map_or_else(|| Path::new("out").join(format!("{command}-{name}")), Path::to_owned)
 }
 
 pub(crate) fn show(text: &str, json: bool, folder: &Folder, written: &Written) {

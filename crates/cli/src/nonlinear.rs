@@ -1,9 +1,8 @@
 //! The command `nonlinear`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use piola_charts::Folder;
 use piola_measured::MeasuredError;
 use piola_measured::nonlinear::{
     NonlinearRequest, NonlinearTable, RelaxationModes, compare_nonlinear_until, modes_of_spectrum,
@@ -11,7 +10,7 @@ use piola_measured::nonlinear::{
 
 use crate::Exit;
 use crate::commands::refused;
-use crate::flows::{settled, show, watched};
+use crate::flows::{Results, finished, out, watched};
 use crate::interrupt::Interrupt;
 
 #[derive(Debug, Args)]
@@ -52,21 +51,17 @@ pub(crate) fn fit(arguments: &NonlinearArguments) -> Exit {
         };
         request.confidence = arguments.confidence;
         let found = watched(&table.name(), &interrupt, |watch| compare_nonlinear_until(&table, &request, watch))?;
-        if let (None, Some((_, refused))) = (found.fits().next(), found.refusals().next()) {
-            return Err(refused.clone().into());
-        }
-        let beside = || Path::new("out").join(format!("nonlinear-{}", table.name()));
-        let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
-        Ok((table, found, folder))
+        Ok((table, found))
     });
     match prepared {
-        Ok((table, found, folder)) => {
-            let written = found.write(&folder, &table);
-            let text = if arguments.json { found.summary(&table) } else { found.table(&table) };
-            show(&text, arguments.json, &folder, &written);
-            let refusals: Vec<String> =
-                found.refusals().map(|(fluid, refusal)| format!("{fluid}: {refusal}")).collect();
-            settled(&found, found.is_complete(), &refusals, !arguments.fluids.is_empty(), &written)
+        Ok((table, found)) => {
+            let results = Results {
+                table: &|| found.table(&table),
+                summary: &|| found.summary(&table),
+                write: &|folder| found.write(folder, &table),
+            };
+            let out = out(arguments.out.as_deref(), "nonlinear", &table.name());
+            finished(&found, &results, &out, (arguments.json, !arguments.fluids.is_empty()))
         }
         Err(error) => refused(&error, arguments.json),
     }

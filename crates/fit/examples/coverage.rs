@@ -15,26 +15,9 @@ use piola_fluids::{
     Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, Parameters, PowerLaw, Sisko,
     ViscometricFluid,
 };
+use piola_testkit::NormalNoise;
 use piola_viscometry::recover::FlowTable;
 use piola_viscometry::{Channel, ConeAndPlate, Couette, ParallelPlates, Poiseuille};
-
-/// `SplitMix64` with the transform of Box and Muller.
-struct Normal(u64);
-
-impl Normal {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn draw(&mut self) -> f64 {
-        let (u, v) = (1.0 - self.uniform(), self.uniform());
-        (-2.0 * u.ln()).sqrt() * (core::f64::consts::TAU * v).cos()
-    }
-}
 
 const NOISE: f64 = 0.01;
 const FLOWS: [&str; 7] = ["curve", "pipe", "channel", "couette 10:11", "couette 10:20", "plates", "cone"];
@@ -85,7 +68,7 @@ fn data(flow: &str, rows: &[[f64; 2]]) -> Result<FlowData, FitError> {
 fn fluid<F: Parameters<N> + ViscometricFluid, const N: usize>(
     truth: [f64; N],
     trials: u32,
-    normal: &mut Normal,
+    normal: &mut NormalNoise,
     totals: &mut [(u64, u64)],
 ) -> Result<(), Box<dyn std::error::Error>> {
     let fluid = F::from_parameters(truth)?;
@@ -118,7 +101,7 @@ fn fluid<F: Parameters<N> + ViscometricFluid, const N: usize>(
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let trials = std::env::args().nth(1).map_or(Ok(200), |text| text.parse())?;
-    let (mut normal, mut totals) = (Normal(20_261_126), vec![(0, 0); FLOWS.len()]);
+    let (mut normal, mut totals) = (NormalNoise(20_261_126), vec![(0, 0); FLOWS.len()]);
     let mut out = std::io::stdout();
     writeln!(out, "| fluid | {} |\n|---|{}", FLOWS.join(" | "), "---|".repeat(FLOWS.len()))?;
     fluid::<Newtonian, 1>([0.7], trials, &mut normal, &mut totals)?;

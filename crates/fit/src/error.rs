@@ -229,7 +229,7 @@ pub enum FitError {
         value: f64,
     },
     /// Lateral stretches are given of a test that has none to measure.
-    #[error("the test `{test}` has lateral stretches, which {loading} tests do not tell")]
+    #[error("the test `{test}` has lateral stretches, which are not measured in {loading} tests")]
     NoLateral {
         /// The test.
         test: String,
@@ -241,6 +241,22 @@ pub enum FitError {
     SeriesLength {
         /// The number of terms.
         value: usize,
+    },
+    /// There is no relaxation mode, or there are too many to fit.
+    #[error("the number of relaxation modes is {value}; it must be at least 1, and at most 6 if they are fitted")]
+    ModeCount {
+        /// The number of modes.
+        value: usize,
+    },
+    /// A viscosity or a time of a given relaxation mode is not positive and finite.
+    #[error("relaxation mode {index}: the {quantity} is {value}; it must be positive and finite")]
+    ModeNotPositive {
+        /// The mode, from 0.
+        index: usize,
+        /// The quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
     },
     /// Nothing is deformed in any test, where every law has the same stress.
     #[error(

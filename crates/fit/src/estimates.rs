@@ -1,4 +1,4 @@
-//! What data say of parameters: errors, intervals, criteria; and bounds given by name.
+//! Statistics of fitted parameters: errors, intervals, criteria; and bounds given by name.
 
 use nalgebra::DMatrix;
 
@@ -12,32 +12,33 @@ use crate::solids::SolidParameter;
 use crate::statistics::{Autocorrelation, Covariance, Criteria, interval, student};
 
 /// A parameter's error and interval, and what the data say of it.
-pub(crate) struct Told {
+pub(crate) struct ParameterEstimate {
     pub(crate) standard_error: Option<f64>,
     pub(crate) interval: Option<[f64; 2]>,
     pub(crate) state: State,
 }
 
-/// What residuals and their derivatives tell: of each parameter, and of all.
-pub(crate) struct Judgement {
-    pub(crate) parameters: Vec<Told>,
+/// Estimates of all parameters, and statistics of the fit.
+pub(crate) struct FitStatistics {
+    pub(crate) parameters: Vec<ParameterEstimate>,
     pub(crate) degrees_of_freedom: usize,
     pub(crate) criteria: Criteria,
     pub(crate) autocorrelation: Option<Autocorrelation>,
 }
 
-/// Of values, bounds, whether each is at a bound, derivatives of the residuals by all parameters, and the residuals as series of
-/// neighbours.
-pub(crate) fn judged(
+/// Errors, intervals and criteria from the parameter values, their bounds, whether each is at a bound, the derivatives of the residuals by
+/// all parameters, and the residuals as series of neighbours. Equal bounds hold a parameter: it does not count in the criteria.
+pub(crate) fn statistics_of(
     theta: &[f64],
     bounds: &[[f64; 2]],
     at_bound: &[bool],
     slopes: &DMatrix<f64>,
     series: &[&[f64]],
     confidence: f64,
-) -> Judgement {
+) -> FitStatistics {
     let points: usize = series.iter().map(|residuals| residuals.len()).sum();
     let squares: f64 = series.iter().flat_map(|residuals| residuals.iter()).map(|r| r * r).sum();
+    let is_held = |k: usize| bounds[k][1] <= bounds[k][0];
     let free: Vec<usize> = (0..theta.len()).filter(|&k| !at_bound[k]).collect();
     let degrees_of_freedom = points - free.len();
     let has_errors = 0 < degrees_of_freedom;
@@ -50,20 +51,24 @@ pub(crate) fn judged(
         let standard_error = covariance.standard_error(k).filter(|_| has_errors);
         let half = standard_error.zip(quantile).map(|(error, quantile)| quantile * error);
         let is_lost = half.is_some_and(|half| widest(theta[k], bounds[k]) <= half);
-        let state = match covariance.parameters.contains(&k) && !is_lost {
-            true if has_errors => State::Determined,
-            true => State::NoDegreesOfFreedom,
-            false if at_bound[k] => State::AtBound,
-            false => State::Undetermined,
+        let state = if is_held(k) {
+            State::Held
+        } else {
+            match covariance.parameters.contains(&k) && !is_lost {
+                true if has_errors => State::Determined,
+                true => State::NoDegreesOfFreedom,
+                false if at_bound[k] => State::AtBound,
+                false => State::Undetermined,
+            }
         };
         let standard_error = standard_error.filter(|_| !is_lost);
         let interval = half.filter(|_| !is_lost).map(|half| interval(theta[k], bounds[k], half));
-        Told { standard_error, interval, state }
+        ParameterEstimate { standard_error, interval, state }
     };
-    Judgement {
+    FitStatistics {
         parameters: (0..theta.len()).map(told).collect(),
         degrees_of_freedom,
-        criteria: Criteria::new(points, free.len(), squares),
+        criteria: Criteria::new(points, (0..theta.len()).filter(|&k| !is_held(k)).count(), squares),
         autocorrelation,
     }
 }
@@ -77,8 +82,8 @@ pub(crate) struct Estimates {
     pub(crate) autocorrelation: Option<Autocorrelation>,
 }
 
-/// Of names with whether each is a stress, values, ranges, derivatives of the residuals by all parameters, and the residuals as series of
-/// neighbours.
+/// Estimates from the names with whether each is a stress, the parameter values, their ranges, the derivatives of the residuals by all
+/// parameters, and the residuals as series of neighbours.
 #[cfg(feature = "solids")]
 pub(crate) fn estimates(
     names: &[(String, bool)],
@@ -99,10 +104,10 @@ pub(crate) fn estimates(
     };
     let at_bound: Vec<bool> = (0..theta.len()).map(is_at_bound).collect();
     let bounds: Vec<[f64; 2]> = ranges.iter().map(|range| range.bounds).collect();
-    let Judgement { parameters, degrees_of_freedom, criteria, autocorrelation } =
-        judged(theta, &bounds, &at_bound, slopes, series, confidence);
-    let named = |((told, (name, is_stress)), value): ((Told, &(String, bool)), &f64)| {
-        let Told { standard_error, interval, state } = told;
+    let FitStatistics { parameters, degrees_of_freedom, criteria, autocorrelation } =
+        statistics_of(theta, &bounds, &at_bound, slopes, series, confidence);
+    let named = |((found, (name, is_stress)), value): ((ParameterEstimate, &(String, bool)), &f64)| {
+        let ParameterEstimate { standard_error, interval, state } = found;
         SolidParameter { name: name.clone(), is_stress: *is_stress, value: *value, standard_error, interval, state }
     };
     let parameters = parameters.into_iter().zip(names).zip(theta).map(named).collect();

@@ -9,6 +9,8 @@ pub enum State {
     Determined,
     /// It is at a bound, or at zero where stability asks for a sign.
     AtBound,
+    /// Its bounds leave one value: it is held there, not fitted.
+    Held,
     /// They say nothing of it, or not of it alone, or not its order of magnitude.
     Undetermined,
     /// They fix it, but there are as many parameters as numbers: what remains says nothing of the error of any.

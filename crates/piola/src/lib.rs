@@ -80,7 +80,8 @@
 //! | viscometric flows and their inversion | [`viscometry`] | `viscometry` |
 //! | exact solutions of nonlinear elasticity | [`solutions`] | `solutions` |
 //! | parameters of laws from measurements | [`fit`] | `fit` |
-//! | relaxation spectra; with [`fit`], viscoelastic fluids from start-up, extension, normal stresses | [`spectra`] | `spectra` |
+//! | relaxation spectra | [`spectra`] | `spectra` |
+//! | viscoelastic fluids from start-up, extension, normal stresses | [`fit`], module `nonlinear` | `nonlinear` |
 //! | materially uniform bodies, dislocations, residual stress | [`uniformity`] | `uniformity` |
 //! | elastic and viscous fields on a box | [`spectral`] | `spectral` |
 //! | elastic and fluid registration of images | [`registration`] | `registration` |

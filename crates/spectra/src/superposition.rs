@@ -86,7 +86,8 @@ pub struct CurveShift {
 ///
 /// # Accuracy
 /// As [`horizontal_shifts`], over the difference of slopes along the curves instead of the slope. Noise of the moduli scatters ln bₜ
-/// likewise: the intervals tell it. They do not hold the error of interpolation, and suppose that pairs of neighbours are independent.
+/// likewise. The intervals include this scatter. They do not include the interpolation error, and they treat the shifts of neighbouring pairs
+/// as independent.
 ///
 /// # Example
 /// ```

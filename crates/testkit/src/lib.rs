@@ -8,6 +8,7 @@
 //! | scale a tolerance by how ill-conditioned the problem is | [`condition_number`], [`Tol::times`] |
 //! | check a derivative against differences of values | [`difference_quotient`] |
 //! | draw random inputs for an identity | [`strategies`] |
+//! | disturb exact data by normal noise | [`NormalNoise`] |
 //! | tell rounding from the rest | [`DoubleDouble`] |
 //! | judge a polar decomposition or a tensor logarithm | [`spectral`] |
 //! | have a smooth displacement of a cube with its force | [`smooth_cube`] |
@@ -20,6 +21,7 @@ mod closeness;
 mod differences;
 mod double_double;
 pub mod golden;
+mod noise;
 mod orders;
 pub mod smooth_cube;
 pub mod spectral;
@@ -33,6 +35,7 @@ pub use closeness::{
 };
 pub use differences::{condition_number, condition_number_by_steps, difference_quotient};
 pub use double_double::DoubleDouble;
+pub use noise::NormalNoise;
 pub use orders::{assert_order, convergence_order};
 pub use tolerance::Tol;
 

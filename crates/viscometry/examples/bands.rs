@@ -7,8 +7,8 @@
 //! times 1 + 1 % normal noise, which is estimated from the table. Rows whose band reaches by more than a factor of ten are refused, as
 //! `piola recover` does.
 //!
-//! A cell holds: whole curves held, rows held, the largest ratio over the rows of the median half width and the 95th percentile of the error,
-//! rows refused; all in percent but the ratio. The bands are simultaneous: nominally they hold 95 % of the curves.
+//! The program first prints what the four numbers of a cell mean. The bands are simultaneous: nominally they hold 95 % of the curves.
+//! The results are in `docs/measurements/measured-tables.md`.
 
 use core::fmt::Write as _;
 use std::error::Error;
@@ -18,26 +18,9 @@ use piola_fluids::{
     AnyFluid, Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, PowerLaw, Sisko,
     ViscometricFluid as _,
 };
+use piola_testkit::NormalNoise;
 use piola_viscometry::recover::{self, FlowTable};
 use piola_viscometry::{Channel, ConeAndPlate, Couette, ParallelPlates, Poiseuille};
-
-/// `SplitMix64` with the transform of Box and Muller.
-struct Normal(u64);
-
-impl Normal {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn draw(&mut self) -> f64 {
-        let (u, v) = (1.0 - self.uniform(), self.uniform());
-        (-2.0 * u.ln()).sqrt() * (core::f64::consts::TAU * v).cos()
-    }
-}
 
 const NOISE: f64 = 0.01;
 const ROWS: usize = 25;
@@ -125,8 +108,13 @@ fn quantile(mut numbers: Vec<f64>, share: f64) -> f64 {
     numbers.get(place).copied().unwrap_or(f64::NAN)
 }
 
-/// A cell of the table: whole curves held, rows held, the largest ratio of half width and error, rows refused; all in percent but the ratio.
-fn cell(fluid: &AnyFluid, flow: &str, trials: u32, normal: &mut Normal) -> Result<String, Box<dyn Error>> {
+/// What the numbers of a cell mean.
+const LEGEND: &str = "A cell: share of the tables of which all recovered rows are held, %; share of the recovered rows that are held, %;\n\
+    the largest ratio, over the rows recovered in half of the tables, of the median half width and the 95th percentile of the error;\n\
+    share of the rows that are refused, %.\n";
+
+/// A cell of the table, as [`LEGEND`] says.
+fn cell(fluid: &AnyFluid, flow: &str, trials: u32, normal: &mut NormalNoise) -> Result<String, Box<dyn Error>> {
     let exact: Vec<[f64; 2]> = (0..ROWS)
         .map(|i| row(fluid, flow, 1e-2 * 1e5_f64.powf(i as f64 / (ROWS as f64 - 1.0))))
         .collect::<Result<_, _>>()?;
@@ -157,10 +145,12 @@ fn cell(fluid: &AnyFluid, flow: &str, trials: u32, normal: &mut Normal) -> Resul
         let errors = row.iter().map(|[_, error]| *error).collect();
         quantile(widths, 0.5) / quantile(errors, 0.95)
     });
-    let ratio = ratio.fold(0.0, f64::max);
+    // A dash where no row is recovered that often, or a ratio is none.
+    let ratio = ratio.reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) });
+    let ratio = ratio.filter(|ratio| ratio.is_finite()).map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.1}"));
     let share = |part: f64, all: f64| 100.0 * part / all;
     Ok(format!(
-        "{:.0} / {:.1} / {ratio:.1} / {:.0}",
+        "{:.0} / {:.1} / {ratio} / {:.0}",
         share(f64::from(whole), f64::from(counted)),
         share(held as f64, all as f64),
         share(refused as f64, f64::from(trials) * ROWS as f64)
@@ -169,8 +159,9 @@ fn cell(fluid: &AnyFluid, flow: &str, trials: u32, normal: &mut Normal) -> Resul
 
 fn main() -> Result<(), Box<dyn Error>> {
     let trials = std::env::args().nth(1).map_or(Ok(200), |text| text.parse())?;
-    let mut normal = Normal(20_261_127);
+    let mut normal = NormalNoise(20_261_127);
     let mut out = std::io::stdout();
+    writeln!(out, "{LEGEND}")?;
     writeln!(out, "| fluid | {} |\n|---|{}", FLOWS.join(" | "), "---|".repeat(FLOWS.len()))?;
     let fluids: [AnyFluid; 10] = [
         Newtonian::new(0.7)?.into(),

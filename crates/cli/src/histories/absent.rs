@@ -1,15 +1,16 @@
 //! Laws with history of a program that is built without them.
 
+use piola_measured::MeasuredError;
+
 use crate::Exit;
 use crate::arguments::FitArguments;
-use crate::commands::note;
+use crate::commands::refused;
 
 pub(crate) fn fit(arguments: &FitArguments) -> Exit {
-    note(&format!(
-        "error: this program is built without laws with history; build it with the feature `history`:\n\
-         cargo run --release --features history -- fit {} --law {}",
-        arguments.data.display(),
-        arguments.laws.join(" --law ")
-    ));
-    Exit::Invalid
+    let error = MeasuredError::Argument {
+        argument: format!("--law {}", arguments.laws.join(" --law ")),
+        valid: "laws without history; for laws with history build the program with \
+                `cargo install --path crates/cli --features history`",
+    };
+    refused(&error, arguments.json)
 }

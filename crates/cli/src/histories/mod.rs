@@ -1,8 +1,5 @@
 //! Laws with history by the command `fit`.
 
-use std::path::Path;
-
-use piola_charts::Folder;
 use piola_measured::MeasuredError;
 use piola_measured::history::{HistoryMeasurements, HistoryRequest, compare_histories_until};
 
@@ -10,7 +7,7 @@ use crate::Exit;
 use crate::arguments::FitArguments;
 use crate::commands::refused;
 use crate::fit_options::refuse_all_but;
-use crate::flows::{settled, show, watched};
+use crate::flows::{Results, finished, out, watched};
 use crate::interrupt::Interrupt;
 
 /// Fits laws with history to tests along time.
@@ -20,20 +17,17 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
         let measurements = HistoryMeasurements::load(&arguments.data)?;
         let found =
             watched(&measurements.name(), &interrupt, |watch| compare_histories_until(&measurements, &request, watch))?;
-        if let (None, Some((_, refused))) = (found.fits().next(), found.refusals().next()) {
-            return Err(refused.clone().into());
-        }
-        let beside = || Path::new("out").join(format!("fit-{}", measurements.name()));
-        let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
-        Ok((measurements, found, folder))
+        Ok((measurements, found))
     });
     match prepared {
-        Ok((measurements, found, folder)) => {
-            let written = found.write(&folder, &measurements);
-            let text = if arguments.json { found.summary(&measurements) } else { found.table(&measurements) };
-            show(&text, arguments.json, &folder, &written);
-            let refusals: Vec<String> = found.refusals().map(|(law, refusal)| format!("{law}: {refusal}")).collect();
-            settled(&found, found.is_complete(), &refusals, true, &written)
+        Ok((measurements, found)) => {
+            let results = Results {
+                table: &|| found.table(&measurements),
+                summary: &|| found.summary(&measurements),
+                write: &|folder| found.write(folder, &measurements),
+            };
+            let out = out(arguments.out.as_deref(), "fit", &measurements.name());
+            finished(&found, &results, &out, (arguments.json, true))
         }
         Err(error) => refused(&error, arguments.json),
     }

@@ -103,12 +103,32 @@ const SPRING: [HistoryParameter; 2] = [("shear_modulus", true, POSITIVE), ("firs
 const OVERSTRESS: [HistoryParameter; 2] =
     [("overstress_shear_modulus", true, POSITIVE), ("overstress_first_lame_parameter", true, POSITIVE)];
 
+/// n of P = μ (λ − λ⁻ⁿ), the stress of an incompressible neo-Hookean solid.
+const fn thinning(loading: Loading) -> i32 {
+    match loading {
+        Loading::Equibiaxial => 5,
+        Loading::Planar => 3,
+        _ => 2,
+    }
+}
+
+/// λ̄ = √(I₁/3) of the row of a test with the largest one, for constant volume.
+fn chain_stretch(test: &HistoryTest) -> f64 {
+    let first_invariant = |x: f64| match test.loading() {
+        Loading::SimpleShear => 3.0 + x * x,
+        Loading::Equibiaxial => 2.0 * x * x + x.powi(-4),
+        Loading::Planar => x * x + 1.0 + x.powi(-2),
+        _ => x * x + 2.0 / x,
+    };
+    test.rows().iter().map(|row| (first_invariant(row[1]) / 3.0).sqrt()).fold(1.0, f64::max)
+}
+
 impl AnyHistoryModel {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::BergstromBoyce, Self::ReeseGovindjee, Self::OgdenRoxburgh, Self::Viscoplastic];
 
     /// Starts of a search about the stresses, stretches and times of tests: for [`fit_history`](super::fit_history), which searches from
-    /// one. First Lamé parameters, which tests with free sides hardly tell, are a hundred shear moduli; of metal one and a half.
+    /// one. First Lamé parameters, which tests with free sides hardly determine, are a hundred shear moduli; of metal one and a half (ν = 0.3).
     ///
     /// # Example
     /// ```
@@ -126,9 +146,7 @@ impl AnyHistoryModel {
             let [_, stretch, stress] = *test.rows().iter().max_by(|a, b| a[2].abs().total_cmp(&b[2].abs()))?;
             let strain = match test.loading() {
                 Loading::SimpleShear => stretch,
-                Loading::Equibiaxial => stretch - stretch.powi(-5),
-                Loading::Planar => stretch - stretch.powi(-3),
-                _ => stretch - stretch.powi(-2),
+                loading => stretch - stretch.powi(-thinning(loading)),
             };
             Some((stress / strain).abs()).filter(|modulus| 0.0 < *modulus && modulus.is_finite())
         };
@@ -144,7 +162,15 @@ impl AnyHistoryModel {
         let bulk = 100.0 * mu;
         match self {
             Self::BergstromBoyce => {
-                times.iter().map(|time| vec![mu, bulk, mu, bulk, 1.0, largest * time.sqrt(), 4.0, -0.5, 0.01]).collect()
+                // γ̇ = γ̇₀ (λ̄ − 1 + ξ)^c (τ/τ₀)^m is about 1/T: with γ̇₀ = 1/s, τ₀ = τ (T (λ̄ − 1 + ξ)^c)^(1/m).
+                let (power, slowing, perturbation) = (4.0, -0.5, 0.01);
+                let stretch = tests.iter().map(chain_stretch).fold(1.0, f64::max);
+                let resistance = (stretch - 1.0 + perturbation).powf(slowing);
+                let start = |time: &f64| {
+                    let stress = largest * (time * resistance).powf(1.0 / power);
+                    vec![mu, bulk, mu, bulk, 1.0, stress, power, slowing, perturbation]
+                };
+                times.iter().map(start).collect()
             }
             Self::ReeseGovindjee => times.iter().map(|time| vec![mu, bulk, mu, bulk, mu * time]).collect(),
             Self::OgdenRoxburgh => {
@@ -154,14 +180,21 @@ impl AnyHistoryModel {
                 // A test beyond the yield stress shows less than the elastic modulus.
                 let steep = |test: &HistoryTest| {
                     let rows = test.rows().iter().find(|row| 0.1 * test.largest_stress() < row[2].abs())?;
-                    let strain = if test.loading() == Loading::SimpleShear { rows[1] } else { 3.0 * (rows[1] - 1.0) };
+                    // P = E (λ − 1) with E/μ at ν = 0.3: 2 (1 + ν), of equal stretches 2 (1 + ν)/(1 − ν), of a sheet 2/(1 − ν).
+                    let strain = match test.loading() {
+                        Loading::SimpleShear => rows[1],
+                        Loading::Equibiaxial => 2.6 / 0.7 * (rows[1] - 1.0),
+                        Loading::Planar => 2.0 / 0.7 * (rows[1] - 1.0),
+                        _ => 2.6 * (rows[1] - 1.0),
+                    };
                     Some((rows[2] / strain).abs()).filter(|modulus| modulus.is_finite())
                 };
                 let mu = tests.iter().filter_map(steep).fold(mu, f64::max);
                 times
                     .iter()
                     .map(|time| {
-                        vec![mu, 1.5 * mu, 0.7 * largest, 0.1 * largest, 0.2 * largest, 5.0, 0.1 * largest * time]
+                        // The saturation stress is at least the yield stress.
+                        vec![mu, 1.5 * mu, 0.7 * largest, 0.1 * largest, 0.9 * largest, 5.0, 0.1 * largest * time]
                     })
                     .collect()
             }

@@ -37,7 +37,7 @@ use nalgebra::DMatrix;
 use piola_fluids::AnyFluid;
 
 use crate::FitError;
-use crate::estimates::{Judgement, judged};
+use crate::estimates::{FitStatistics, statistics_of};
 use crate::search::{Misfit, Range, minimise};
 
 /// Options of a fit.
@@ -49,7 +49,7 @@ pub struct Options {
     pub patience: usize,
     /// Where searches start, if not at a few places about the viscosities and rates of the data.
     pub starts: Vec<Vec<f64>>,
-    /// The relaxation modes: so many are fitted, or they are given.
+    /// The relaxation modes: a number of modes whose viscosities and times are fitted, or given ones.
     pub modes: RelaxationModes,
 }
 
@@ -181,8 +181,8 @@ impl Misfit for Walk<'_> {
 /// What cannot converge still returns the best parameters that were found, with an [`Outcome`] that says so.
 ///
 /// # Errors
-/// [`FitError::TooFewPoints`], [`FitError::ConfidenceOutOfRange`]; [`FitError::SeriesLength`] or [`FitError::Fluids`] for relaxation modes
-/// that are none; [`FitError::NoSecondNormalStressDifference`] if N₂ is measured and the fluid has none; [`FitError::NumberOfValues`] of
+/// [`FitError::TooFewPoints`], [`FitError::ConfidenceOutOfRange`]; [`FitError::ModeCount`] or [`FitError::ModeNotPositive`] for invalid
+/// relaxation modes; [`FitError::NoSecondNormalStressDifference`] if N₂ is measured and the fluid has none; [`FitError::NumberOfValues`] of
 /// a start; [`FitError::NoStart`] if no start has finite answers.
 ///
 /// # Accuracy
@@ -280,8 +280,8 @@ pub fn fit_nonlinear_until(
         series.push(these);
         rest = others;
     }
-    let Judgement { parameters, degrees_of_freedom, criteria, autocorrelation } =
-        judged(&values, &bounds, &at_bound, &slopes, &series, options.confidence);
+    let FitStatistics { parameters, degrees_of_freedom, criteria, autocorrelation } =
+        statistics_of(&values, &bounds, &at_bound, &slopes, &series, options.confidence);
     let parameters = parameters.into_iter().zip(names).zip(&values).map(|((told, name), value)| NonlinearParameter {
         name,
         value: *value,

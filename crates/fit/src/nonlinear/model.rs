@@ -5,7 +5,7 @@ use core::str::FromStr;
 
 use piola_fluids::{
     AnyFluid, ExponentialDamping, ExponentialPhanThienTanner, Giesekus, Kbkz, LinearPhanThienTanner, Mode, Modes,
-    OldroydB, RationalDamping, Relaxation, UpperConvectedMaxwell,
+    OldroydB, RationalDamping, Relaxation,
 };
 
 use super::answers::{differential, integral, linear};
@@ -43,7 +43,7 @@ pub enum NonlinearModel {
     KbkzExponential,
 }
 
-/// The relaxation modes of a viscoelastic fluid: so many with unknown viscosities and times, or a spectrum that is known.
+/// The relaxation modes: a number of modes whose viscosities and times are fitted, or given ones.
 ///
 /// # Example
 /// ```
@@ -57,7 +57,7 @@ pub enum NonlinearModel {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum RelaxationModes {
-    /// So many modes, 1 to 6; each has a viscosity and a time among the parameters.
+    /// The number of fitted modes, 1 to 6. Each has a viscosity and a time among the parameters.
     Fitted(usize),
     /// Viscosities and times that are held, as those of a relaxation spectrum: ηᵢ = gᵢ λᵢ.
     Given(Vec<Relaxation>),
@@ -70,14 +70,30 @@ impl Default for RelaxationModes {
 }
 
 impl RelaxationModes {
-    /// Refuses what is no set of modes.
-    pub(super) fn check(&self) -> Result<(), FitError> {
+    /// Checks the number of modes, and the viscosities and times of given ones.
+    ///
+    /// # Errors
+    /// [`FitError::ModeCount`]; [`FitError::ModeNotPositive`] for a viscosity or a time that is not positive and finite.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_fit::nonlinear::RelaxationModes;
+    /// let refused = RelaxationModes::Fitted(7).check().unwrap_err().to_string();
+    /// assert_eq!(refused, "the number of relaxation modes is 7; it must be at least 1, and at most 6 if they are fitted");
+    /// ```
+    pub fn check(&self) -> Result<(), FitError> {
         match self {
-            Self::Fitted(count) if !(1..=MOST).contains(count) => Err(FitError::SeriesLength { value: *count }),
+            Self::Fitted(count) if !(1..=MOST).contains(count) => Err(FitError::ModeCount { value: *count }),
             Self::Fitted(_) => Ok(()),
+            Self::Given(spectrum) if spectrum.is_empty() => Err(FitError::ModeCount { value: 0 }),
             Self::Given(spectrum) => {
-                let mode = |mode: &Relaxation| UpperConvectedMaxwell::new(mode.viscosity, mode.time);
-                Modes::new(spectrum.iter().map(mode).collect::<Result<_, _>>()?)?;
+                for (index, mode) in spectrum.iter().enumerate() {
+                    for (quantity, value) in [("viscosity", mode.viscosity), ("time", mode.time)] {
+                        if !(0.0 < value && value.is_finite()) {
+                            return Err(FitError::ModeNotPositive { index, quantity, value });
+                        }
+                    }
+                }
                 Ok(())
             }
         }
@@ -92,8 +108,8 @@ impl RelaxationModes {
     }
 }
 
-/// A fluid made of parameters, by its modes.
-enum Made {
+/// A fluid with its modes.
+enum FluidOfModes {
     OldroydB(Vec<OldroydB>),
     Giesekus(Vec<Giesekus>),
     LinearPtt(Vec<LinearPhanThienTanner>),
@@ -201,7 +217,7 @@ impl NonlinearModel {
         starts
     }
 
-    fn made(self, modes: &RelaxationModes, parameters: &[f64]) -> Result<Made, FitError> {
+    fn with_modes(self, modes: &RelaxationModes, parameters: &[f64]) -> Result<FluidOfModes, FitError> {
         let (first, count) = self.places(modes);
         let expected = first + 2 * count + self.shared().len();
         if parameters.len() != expected {
@@ -229,13 +245,15 @@ impl NonlinearModel {
             };
         }
         Ok(match self {
-            Self::OldroydB => Made::OldroydB(modes!(OldroydB)),
-            Self::Giesekus => Made::Giesekus(modes!(Giesekus, shared[0])),
-            Self::LinearPtt => Made::LinearPtt(modes!(LinearPhanThienTanner, shared[0])),
-            Self::ExponentialPtt => Made::ExponentialPtt(modes!(ExponentialPhanThienTanner, shared[0])),
-            Self::KbkzRational => Made::KbkzRational(Kbkz::new(memory, RationalDamping::new(shared[0], shared[1])?)?),
+            Self::OldroydB => FluidOfModes::OldroydB(modes!(OldroydB)),
+            Self::Giesekus => FluidOfModes::Giesekus(modes!(Giesekus, shared[0])),
+            Self::LinearPtt => FluidOfModes::LinearPtt(modes!(LinearPhanThienTanner, shared[0])),
+            Self::ExponentialPtt => FluidOfModes::ExponentialPtt(modes!(ExponentialPhanThienTanner, shared[0])),
+            Self::KbkzRational => {
+                FluidOfModes::KbkzRational(Kbkz::new(memory, RationalDamping::new(shared[0], shared[1])?)?)
+            }
             Self::KbkzExponential => {
-                Made::KbkzExponential(Kbkz::new(memory, ExponentialDamping::new(shared[0], shared[1])?)?)
+                FluidOfModes::KbkzExponential(Kbkz::new(memory, ExponentialDamping::new(shared[0], shared[1])?)?)
             }
         })
     }
@@ -243,7 +261,7 @@ impl NonlinearModel {
     /// The fluid with these parameters; of one mode it is that fluid, of several their [`Modes`].
     ///
     /// # Errors
-    /// [`FitError::NumberOfValues`]; [`FitError::SeriesLength`] of modes; [`FitError::Fluids`] for parameters out of bounds.
+    /// [`FitError::NumberOfValues`]; [`FitError::ModeCount`], [`FitError::ModeNotPositive`]; [`FitError::Fluids`] for parameters out of bounds.
     pub fn fluid(self, modes: &RelaxationModes, parameters: &[f64]) -> Result<AnyFluid, FitError> {
         fn one_or_several<M: Mode>(modes: Vec<M>) -> Result<AnyFluid, FitError>
         where
@@ -255,13 +273,13 @@ impl NonlinearModel {
             })
         }
         modes.check()?;
-        match self.made(modes, parameters)? {
-            Made::OldroydB(modes) => one_or_several(modes),
-            Made::Giesekus(modes) => one_or_several(modes),
-            Made::LinearPtt(modes) => one_or_several(modes),
-            Made::ExponentialPtt(modes) => one_or_several(modes),
-            Made::KbkzRational(fluid) => Ok(fluid.into()),
-            Made::KbkzExponential(fluid) => Ok(fluid.into()),
+        match self.with_modes(modes, parameters)? {
+            FluidOfModes::OldroydB(modes) => one_or_several(modes),
+            FluidOfModes::Giesekus(modes) => one_or_several(modes),
+            FluidOfModes::LinearPtt(modes) => one_or_several(modes),
+            FluidOfModes::ExponentialPtt(modes) => one_or_several(modes),
+            FluidOfModes::KbkzRational(fluid) => Ok(fluid.into()),
+            FluidOfModes::KbkzExponential(fluid) => Ok(fluid.into()),
         }
     }
 
@@ -307,13 +325,13 @@ impl NonlinearModel {
         data: &NonlinearData,
         out: &mut Vec<f64>,
     ) -> Result<(), FitError> {
-        match self.made(modes, parameters)? {
-            Made::OldroydB(modes) => linear(&modes, data, out),
-            Made::Giesekus(modes) => differential(&modes, data, out),
-            Made::LinearPtt(modes) => differential(&modes, data, out),
-            Made::ExponentialPtt(modes) => differential(&modes, data, out),
-            Made::KbkzRational(fluid) => integral(&fluid, data, out),
-            Made::KbkzExponential(fluid) => integral(&fluid, data, out),
+        match self.with_modes(modes, parameters)? {
+            FluidOfModes::OldroydB(modes) => linear(&modes, data, out),
+            FluidOfModes::Giesekus(modes) => differential(&modes, data, out),
+            FluidOfModes::LinearPtt(modes) => differential(&modes, data, out),
+            FluidOfModes::ExponentialPtt(modes) => differential(&modes, data, out),
+            FluidOfModes::KbkzRational(fluid) => integral(&fluid, data, out),
+            FluidOfModes::KbkzExponential(fluid) => integral(&fluid, data, out),
         }
     }
 }

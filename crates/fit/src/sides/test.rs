@@ -118,8 +118,8 @@ impl SidesTest {
         Ok(Self { name, loading, angle: 0.0, rows: rows.to_vec() })
     }
 
-    /// Of a strip that was cut at an angle from axis 1 in the plane 1–2, radians, and is pulled along itself: rows of its stretch, its
-    /// stress and the stretch of its width. Its ends are free to shear: a body with fibres does.
+    /// A test of a strip cut at `angle`, radians, from axis 1 in the plane 1–2 and pulled along its length. Rows: stretch, stress, lateral
+    /// stretch. The ends must be free to shear, because a strip with oblique fibres shears when pulled.
     ///
     /// # Errors
     /// As [`new`](Self::new); [`FitError::AngleNotFinite`].

@@ -44,6 +44,7 @@ pub(super) fn result<M: Model>(
     let covariance = if told.len() < all.parameters.len() { Covariance::new(&slopes, &told, variance) } else { all };
     let estimate = |(k, parameter): (usize, &Parameter)| {
         let state = match covariance.parameters.contains(&k) {
+            _ if is_held(parameter) => State::Held,
             true if has_errors => State::Determined,
             true => State::NoDegreesOfFreedom,
             false if free.contains(&k) => State::Undetermined,
@@ -68,7 +69,11 @@ pub(super) fn result<M: Model>(
         tests,
         weighted_squares: best.squares,
         degrees_of_freedom,
-        criteria: Criteria::new(points, theta.len(), best.squares),
+        criteria: Criteria::new(
+            points,
+            problem.parameters.iter().filter(|parameter| !is_held(parameter)).count(),
+            best.squares,
+        ),
         autocorrelation,
         confidence: options.confidence,
         // W = μ ε:ε at rest.
@@ -80,6 +85,11 @@ pub(super) fn result<M: Model>(
         starts_that_agree,
         covariance: has_errors.then_some(covariance),
     }
+}
+
+/// Whether the bounds of a parameter leave one value.
+fn is_held(parameter: &Parameter) -> bool {
+    parameter.bounds[1] <= parameter.bounds[0]
 }
 
 /// Residuals of each test from weighted stresses.

@@ -115,7 +115,7 @@ fn fitted_parameters_equal_those_that_made_the_tables() -> Fallible {
         let fit = fit_history(&model, &tests, &start, &options)?;
         assert!(fit.outcome.is_converged(), "{model}: {:?}", fit.outcome);
         assert_close(&format!("{model}: θ"), &fit.values(), &made, FOUND);
-        assert_eq!(fit.parameters[1].state, State::AtBound);
+        assert_eq!(fit.parameters[1].state, State::Held);
         assert_eq!(fit.parameters[0].state, State::Determined);
         assert!(0 < fit.evaluations && fit.tests.iter().all(|test| test.relative_rms < 1e-12), "{model}");
     }

@@ -327,13 +327,25 @@ fn second_normal_stresses_and_modes_are_checked_by_name() {
     let second = NonlinearFlow::SteadyShear(ShearResponse::SecondNormalStressDifference);
     let refused = NonlinearData::new(second, vec![[1.0, 2.0]]).expect_err("positive").to_string();
     assert_eq!(refused, "row 0: the response is 2; it must be negative and finite");
+    let good = Relaxation { viscosity: 1.0, time: 1.0 };
     for (modes, what) in [
-        (RelaxationModes::Fitted(0), "the number of terms of a series is 0; it must be 1 to 6"),
-        (RelaxationModes::Given(vec![]), "number of modes"),
-        (RelaxationModes::Given(vec![Relaxation { viscosity: -1.0, time: 1.0 }]), "polymer_viscosity = -1e0 violates"),
+        (RelaxationModes::Fitted(0), "the number of relaxation modes is 0; it must be at least 1"),
+        (RelaxationModes::Given(vec![]), "the number of relaxation modes is 0"),
+        (
+            RelaxationModes::Given(vec![Relaxation { viscosity: -1.0, time: 1.0 }]),
+            "relaxation mode 0: the viscosity is -1;",
+        ),
+        (
+            RelaxationModes::Given(vec![good, Relaxation { viscosity: 1.0, time: f64::NAN }]),
+            "relaxation mode 1: the time is NaN",
+        ),
     ] {
+        // The same words for a fluid without a solvent.
         let options = Options { modes, ..Options::default() };
-        let refused = fit_nonlinear(NonlinearModel::Giesekus, &data, &options).expect_err(what).to_string();
-        assert!(refused.contains(what), "{refused}");
+        let first = &data[..1];
+        for model in [NonlinearModel::Giesekus, NonlinearModel::KbkzRational] {
+            let refused = fit_nonlinear(model, first, &options).expect_err(what).to_string();
+            assert!(refused.contains(what), "{refused}");
+        }
     }
 }

@@ -14,8 +14,9 @@
 //! ```
 //! Stretches and invariants are those of F/J^(1/3). Numbers are in the unit of the fitted stresses, which must be that of the model.
 //!
-//! `CalculiX` reads at most three terms, the first twenty characters of a number, and puts a size of its own in place of a Dᵢ below 10⁻¹⁰:
-//! its cards have thirteen digits, and 10³⁰ for the Dᵢ that Abaqus' cards leave zero.
+//! `CalculiX` reads at most three terms and the first twenty characters of a number. It replaces a Dᵢ below 10⁻¹⁰ by (0.1/μ)ⁱ, which is
+//! Poisson's ratio 0.475 (subroutine `hyperelastics` of its source of 2023, file `hyperelastics.f`). Therefore its cards have thirteen digits,
+//! and 10³⁰ for the Dᵢ that Abaqus' cards leave zero.
 
 use core::fmt::Write as _;
 use core::str::FromStr;

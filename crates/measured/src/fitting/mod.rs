@@ -17,17 +17,19 @@ mod tables;
 pub use cards::{Bulk, Program, card};
 pub(crate) use cards::{MOST_OF_CALCULIX, lines, short_lines};
 pub use mistake::{TableMistake, TableReport};
+#[cfg(feature = "history")]
+pub(crate) use request::bound;
 pub use request::{LawBounds, Request};
 
 pub use piola_fit::solids::{
-    Contradiction, Fit, Intervals, Residuals, SolidParameter, Stability, State, Test, Weighting,
+    AnyModel, Contradiction, Fit, Intervals, Residuals, SolidParameter, Stability, State, Test, Weighting,
 };
 
 use std::path::{Path, PathBuf};
 
 use piola_charts::{Folder, Written};
 use piola_fit::FitError;
-use piola_fit::solids::{AnyModel, Data, contradictions};
+use piola_fit::solids::{Data, contradictions};
 
 use crate::MeasuredError;
 use crate::comparison::{self, Judged, Watch};

@@ -33,17 +33,22 @@ impl FromStr for LawBounds {
     type Err = MeasuredError;
 
     fn from_str(text: &str) -> Result<Self, MeasuredError> {
-        let wrong = || MeasuredError::Argument {
-            argument: text.to_owned(),
-            valid: "LAW.PARAMETER=LEAST..GREATEST, as gent.Jm=60..200 or gent.Jm=60..",
-        };
-        let end = |text: &str, missing: f64| if text.is_empty() { Ok(missing) } else { number(text).ok_or_else(wrong) };
-        let (name, range) = text.split_once('=').ok_or_else(wrong)?;
-        let (law, parameter) = name.rsplit_once('.').ok_or_else(wrong)?;
-        let (low, high) = range.split_once("..").ok_or_else(wrong)?;
-        let range = [end(low, f64::NEG_INFINITY)?, end(high, f64::INFINITY)?];
+        let valid = "LAW.PARAMETER=LEAST..GREATEST, as gent.Jm=60..200 or gent.Jm=60..";
+        let (law, parameter, range) = bound(text, valid)?;
         Ok(Self { law: law.parse()?, parameter: parameter.to_owned(), range })
     }
+}
+
+/// Law, parameter and range of a bound written `LAW.PARAMETER=LEAST..GREATEST`; either end may be left out.
+pub(crate) fn bound<'t>(text: &'t str, valid: &'static str) -> Result<(&'t str, &'t str, [f64; 2]), MeasuredError> {
+    let parts = || {
+        let end = |text: &str, missing: f64| if text.trim().is_empty() { Some(missing) } else { number(text) };
+        let (name, range) = text.split_once('=')?;
+        let (law, parameter) = name.rsplit_once('.')?;
+        let (low, high) = range.split_once("..")?;
+        Some((law.trim(), parameter.trim(), [end(low, f64::NEG_INFINITY)?, end(high, f64::INFINITY)?]))
+    };
+    parts().ok_or_else(|| MeasuredError::Argument { argument: text.to_owned(), valid })
 }
 
 fn number(text: &str) -> Option<f64> {

@@ -14,6 +14,7 @@
 
 mod output;
 mod table;
+mod tied;
 
 pub use piola_fit::history::{AnyHistoryModel, HistoryFit, HistoryOptions, HistoryTest};
 pub use table::HistoryMeasurements;
@@ -25,6 +26,9 @@ use piola_fit::history::{HistoryModel as _, StepControl, fit_history_until};
 
 use crate::MeasuredError;
 use crate::comparison::{Comparison, Judged, Watch};
+use crate::fitting::bound;
+
+use tied::TiedLaw;
 
 /// Laws with history to compare, and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +52,7 @@ impl HistoryRequest {
     /// Adds a bound written `bergstrom-boyce.stress_exponent=2..8`.
     ///
     /// # Errors
-    /// [`MeasuredError::Argument`] for another text; [`MeasuredError::Fit`] for a law that is none, or has no such parameter.
+    /// [`MeasuredError::Argument`] for another text; [`MeasuredError::Fit`] for an unknown law or parameter.
     ///
     /// # Example
     /// ```
@@ -60,19 +64,8 @@ impl HistoryRequest {
     /// # Ok::<(), piola_measured::MeasuredError>(())
     /// ```
     pub fn with_bound(mut self, text: &str) -> Result<Self, MeasuredError> {
-        let parts = || {
-            let (place, range) = text.split_once('=')?;
-            let (law, parameter) = place.split_once('.')?;
-            let (low, high) = range.split_once("..")?;
-            let end = |text: &str, none: f64| {
-                if text.is_empty() { Some(none) } else { text.parse().ok().filter(|x: &f64| x.is_finite()) }
-            };
-            Some((law, parameter, [end(low, f64::NEG_INFINITY)?, end(high, f64::INFINITY)?]))
-        };
-        let (law, parameter, range) = parts().ok_or_else(|| MeasuredError::Argument {
-            argument: text.to_owned(),
-            valid: "LAW.PARAMETER=LEAST..GREATEST, as bergstrom-boyce.stress_exponent=2..8",
-        })?;
+        let valid = "LAW.PARAMETER=LEAST..GREATEST, as bergstrom-boyce.stress_exponent=2..8";
+        let (law, parameter, range) = bound(text, valid)?;
         let law: AnyHistoryModel = law.parse()?;
         if law.parameters().iter().all(|(name, ..)| *name != parameter) {
             let (model, parameter) = (law.to_string(), parameter.to_owned());
@@ -101,17 +94,19 @@ impl Judged for HistoryFit {
 /// The accuracy of stresses where starts are tried, and evaluations for each unknown.
 const ROUGHLY: (f64, usize) = (1e-4, 25);
 
-/// What tests with free sides do not tell, and one of `rate` and `stress`: held unless there is a bound for it.
+/// Parameters that are held unless the request bounds them: tests with free sides hardly determine the Lamé parameters, and only a
+/// combination of `rate` and `stress` is determined.
 const HELD: [&str; 4] = ["first_lame_parameter", "overstress_first_lame_parameter", "rate", "perturbation"];
 
 /// Fits each law to all tests at once, from the best of a few starts about the sizes of the data.
 ///
-/// Held, unless the request has bounds for them: the first Lamé parameters at 100 shear moduli of the start (of metal 1.5), the `rate` of
-/// Bergström and Boyce's law at 1/s, and its `perturbation` at 0.01.
+/// Held, unless the request has bounds for them: the first Lamé parameters at 100 times the shear modulus of their spring that is fitted
+/// (ν = 0.495; of metal 1.5 times, ν = 0.3), the `rate` of Bergström and Boyce's law at 1/s, and its `perturbation` at 0.01. Their state is
+/// [`State::Held`](piola_fit::State::Held), as that of parameters with equal bounds.
 ///
 /// # Errors
-/// [`MeasuredError::Argument`] for bounds of a law that is not fitted; [`MeasuredError::Fit`] for a confidence that is no probability. The
-/// refusal of a single law stands in its [`Candidate`](crate::comparison::Candidate).
+/// [`MeasuredError::Argument`] for bounds of a law that is not fitted; [`MeasuredError::Fit`] for a confidence that is not between 0 and 1.
+/// The refusal of a single law stands in its [`Candidate`](crate::comparison::Candidate).
 ///
 /// # Example
 /// ```
@@ -162,6 +157,8 @@ fn fitted(
 ) -> Result<HistoryFit, FitError> {
     let given: Vec<&(AnyHistoryModel, String, [f64; 2])> =
         request.bounds.iter().filter(|(other, ..)| *other == law).collect();
+    let is_bounded = |name: &str| given.iter().any(|(_, parameter, _)| parameter == name);
+    let tied = TiedLaw::new(law, is_bounded);
     // From all starts roughly, then from the best one.
     let mut best: Option<(HistoryFit, HistoryOptions)> = None;
     let mut refused = None;
@@ -172,13 +169,13 @@ fn fitted(
         options.confidence = request.confidence;
         options.bounds = given.iter().map(|(_, parameter, range)| (parameter.clone(), *range)).collect();
         for ((name, ..), value) in law.parameters().iter().zip(&start) {
-            if HELD.contains(name) && given.iter().all(|(_, parameter, _)| parameter != name) {
+            if HELD.contains(name) && !is_bounded(name) {
                 options = options.with_bounds(name, [*value; 2]);
             }
         }
         let mut sketch = options.clone().with_control(rough);
         sketch.patience = patience;
-        match fit_history_until(&law, &measurements.tests, &start, &sketch, stop) {
+        match fit_history_until(&tied, &measurements.tests, &start, &sketch, stop) {
             Ok(fit) if best.as_ref().is_none_or(|(best, _)| fit.weighted_squares < best.weighted_squares) => {
                 best = Some((fit, options));
             }
@@ -191,7 +188,7 @@ fn fitted(
     }
     let (best, options) = best.ok_or_else(|| refused.unwrap_or(FitError::NoTests))?;
     if stop() {
-        return Ok(best);
+        return Ok(tied.filled(best));
     }
-    fit_history_until(&law, &measurements.tests, &best.values(), &options, stop)
+    Ok(tied.filled(fit_history_until(&tied, &measurements.tests, &best.values(), &options, stop)?))
 }

@@ -3,9 +3,9 @@
 use core::fmt::Write as _;
 
 use piola_charts::{Folder, Panel, RGBColor, Written, colour, figure, legend};
-use piola_fit::FitError;
 use piola_fit::history::{AnyHistoryModel, HistoryFit};
 use piola_fit::sides::Loading;
+use piola_fit::{FitError, State};
 use serde_json::{Value, json};
 
 use super::{HistoryComparison, HistoryMeasurements};
@@ -50,6 +50,8 @@ impl HistoryComparison {
     /// A table for a reader.
     #[must_use]
     pub fn table(&self, measurements: &HistoryMeasurements) -> String {
+        /// Of `overstress_first_lame_parameter`.
+        const WIDTH: usize = 31;
         let rows: usize = measurements.tests.iter().map(|test| test.rows().len()).sum();
         let mut text = format!("{}: {rows} rows in {} tests\n", measurements.name(), measurements.tests.len());
         for note in &measurements.notes {
@@ -63,9 +65,19 @@ impl HistoryComparison {
                 let _ = writeln!(text, "  {}: RMS residual {:.2} %", test.test, 100.0 * test.relative_rms);
             }
             for found in &fit.parameters {
-                let line =
-                    parameter_in_words(&found.name, found.value, (found.standard_error, found.interval, found.state));
-                let _ = writeln!(text, "{line}{}", unit(&found.name, found.is_stress, measurements.unit.as_deref()));
+                let unit = unit(&found.name, found.is_stress, measurements.unit.as_deref());
+                let told = (found.standard_error, found.interval, found.state);
+                let line = parameter_in_words((&found.name, WIDTH), found.value, &unit, told);
+                let _ = writeln!(text, "{line}");
+            }
+            let held = fit.parameters.iter().filter(|found| found.state == State::Held);
+            let held: Vec<&str> = held.map(|found| found.name.as_str()).collect();
+            if !held.is_empty() {
+                let _ = writeln!(
+                    text,
+                    "  held: {}; --bound {law}.PARAMETER=LEAST..GREATEST frees a parameter",
+                    held.join(", ")
+                );
             }
             if let Some(found) = fit.autocorrelation.filter(|found| 1.0 < found.widening) {
                 let _ = writeln!(
@@ -82,27 +94,30 @@ impl HistoryComparison {
     /// Writes `summary.json`, the stresses of all laws in `predictions.csv`, and `fit.svg`.
     #[must_use]
     pub fn write(&self, folder: &Folder, measurements: &HistoryMeasurements) -> Written {
-        let stress = measurements.unit.as_deref().map_or_else(String::new, |unit| format!(" [{unit}]"));
-        let mut predictions = format!("test,time [s],stretch,stress{stress}");
-        for (law, _) in self.fits() {
-            let _ = write!(predictions, ",{law}");
-        }
-        predictions.push('\n');
-        for (index, test) in measurements.tests.iter().enumerate() {
-            for (row, [t, stretch, stress]) in test.rows().iter().enumerate() {
-                let _ = write!(predictions, "{},{t:?},{stretch:?},{stress:?}", test.name());
-                for (_, fit) in self.fits() {
-                    let _ = write!(predictions, ",{:?}", stress + fit.tests[index].stresses[row]);
-                }
-                predictions.push('\n');
-            }
-        }
         let files = [
             ("summary.json", self.summary(measurements)),
-            ("predictions.csv", predictions),
+            ("predictions.csv", self.predictions(measurements)),
             ("fit.svg", self.drawn(measurements)),
         ];
         Written::of(folder, files)
+    }
+
+    /// The stresses of all laws beside the measured ones; names of tests and units are quoted where they must be.
+    fn predictions(&self, measurements: &HistoryMeasurements) -> String {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let stress =
+            measurements.unit.as_deref().map_or_else(|| "stress".to_owned(), |unit| format!("stress [{unit}]"));
+        let heads = ["test", "time [s]", "stretch", &stress].map(str::to_owned);
+        // A vector takes every record.
+        let _ = writer.write_record(heads.into_iter().chain(self.fits().map(|(law, _)| law.to_string())));
+        for (index, test) in measurements.tests.iter().enumerate() {
+            for (row, [t, stretch, stress]) in test.rows().iter().enumerate() {
+                let measured = [t, stretch, stress].map(|x| format!("{x:?}"));
+                let found = self.fits().map(|(_, fit)| format!("{:?}", stress + fit.tests[index].stresses[row]));
+                let _ = writer.write_record([test.name().to_owned()].into_iter().chain(measured).chain(found));
+            }
+        }
+        String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
     }
 
     /// Stresses over stretches and over times, measured and fitted; a row of panels for each test.

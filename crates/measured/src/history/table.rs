@@ -1,14 +1,16 @@
 //! Tables of time, stretch and stress.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use piola_document::units::Dimension;
+use piola_fit::FitError;
 use piola_fit::history::HistoryTest;
 use piola_fit::sides::Loading;
 
 use crate::MeasuredError;
 use crate::fitting::{TableMistake, TableReport};
-use crate::sheet::{Row, Sheet, read, spelled, unknown};
+use crate::sheet::{NumberColumn, Row, Sheet, read};
 use crate::sides::columns::{self as words, Column};
 
 /// Tests of one material along time.
@@ -67,7 +69,7 @@ impl HistoryMeasurements {
 }
 
 const TIME: &[&str] = &["time", "t"];
-const SPECIMEN: &[&str] = &["specimen", "sample", "cycle test"];
+const SPECIMEN: &[&str] = &["specimen", "sample"];
 const SHEAR: &[&str] = &["shear", "amount of shear", "shear strain", "gamma", "γ"];
 
 fn is_known(plain: &str) -> bool {
@@ -93,16 +95,10 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
         vec![TableMistake::new(sheet.header_line, what, valid)]
     };
     let mut notes = Vec::new();
-    let time = words::find(&sheet, TIME).ok_or_else(|| missing("time", "a column `time [s]`"))?;
-    let to_seconds = match sheet.headings[time].unit.as_deref().map(|text| (text, spelled(text))) {
-        None => {
-            notes.push(format!("`{}` has no unit: read as s", sheet.headings[time].written));
-            1.0
-        }
-        Some((_, Some(unit))) if unit.dimension == Dimension::TIME => unit.to_si(1.0),
-        Some((text, _)) => return Err(one(TableMistake::new(sheet.header_line, unknown(text), "s, ms, min or h"))),
-    };
-    let shear = words::find(&sheet, SHEAR);
+    let find = |names: &[&str]| sheet.column(names).map_err(one);
+    let time = find(TIME)?.ok_or_else(|| missing("time", "a column `time [s]`"))?;
+    let time = sheet.in_units(time, Dimension::TIME, ("s", "s, ms, min or h"), &mut notes).map_err(one)?;
+    let shear = find(SHEAR)?;
     let along = match shear {
         Some(_) => Column::of(&sheet, SHEAR, &[]),
         None => Column::of(&sheet, words::STRETCH, words::STRAIN),
@@ -111,17 +107,18 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
     let along = along.ok_or_else(|| {
         missing("stretch or a strain", "`stretch`, `strain [%]`, or in simple shear `amount of shear`")
     })?;
-    let stress = words::find(&sheet, words::STRESS).ok_or_else(|| missing("stress", "a column `stress [MPa]`"))?;
+    let stress = find(words::STRESS)?.ok_or_else(|| missing("stress", "a column `stress [MPa]`"))?;
     let unit = words::stress_unit(&sheet, stress).map_err(one)?;
-    let (mode, specimen) = (words::find(&sheet, words::MODE), words::find(&sheet, SPECIMEN));
+    let (mode, specimen) = (find(words::MODE)?, find(SPECIMEN)?);
     let mut mistakes = Vec::new();
     let mut groups: Vec<Group> = Vec::new();
+    let mut places: HashMap<(&str, String), usize> = HashMap::new();
     for row in &sheet.rows {
         let loading = match (mode, shear) {
             (None, Some(_)) => Ok(Loading::SimpleShear),
             _ => words::loading(row, mode),
         };
-        let read = loading.and_then(|loading| Ok((loading, numbers(&sheet, row, (time, to_seconds), along, stress)?)));
+        let read = loading.and_then(|loading| Ok((loading, numbers(&sheet, row, time, along, stress)?)));
         let (loading, [t, x, p]) = match read {
             Ok(read) => read,
             Err(mistake) => {
@@ -131,22 +128,27 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
         };
         let specimen = specimen.and_then(|at| row.fields.get(at)).unwrap_or_default();
         let point = (row.line, [t, along.stretch(x, loading), p]);
-        match groups.iter_mut().find(|group| group.loading == loading && group.specimen == specimen) {
-            Some(group) => group.rows.push(point),
-            None => groups.push(Group { loading, specimen: specimen.to_owned(), rows: vec![point] }),
+        let place = *places.entry((loading.name(), specimen.to_owned())).or_insert(groups.len());
+        if place == groups.len() {
+            groups.push(Group { loading, specimen: specimen.to_owned(), rows: Vec::new() });
         }
+        groups[place].rows.push(point);
     }
     let mut tests = Vec::new();
     for Group { loading, specimen, rows } in groups {
         let name =
             if specimen.is_empty() { loading.name().to_owned() } else { format!("{} {specimen}", loading.name()) };
         let numbers: Vec<[f64; 3]> = rows.iter().map(|(_, numbers)| *numbers).collect();
-        // The first row that is refused is the last of the shortest table that is.
-        let is_refused = |count: &usize| HistoryTest::new(&*name, loading, &numbers[..*count]).is_err();
         match HistoryTest::new(&*name, loading, &numbers) {
             Ok(test) => tests.push(test),
             Err(error) => {
-                let line = (1..=numbers.len()).find(is_refused).map_or(sheet.header_line, |count| rows[count - 1].0);
+                let index = match error {
+                    FitError::TimeOutOfOrder { index, .. }
+                    | FitError::StretchNotPositive { index, .. }
+                    | FitError::StressNotFinite { index, .. } => index,
+                    _ => 0,
+                };
+                let line = rows.get(index).map_or(sheet.header_line, |(line, _)| *line);
                 let valid = "uniaxial, equibiaxial, planar or simple shear; times that do not fall; 0 < stretch";
                 mistakes.push(TableMistake::new(line, error.to_string(), valid));
             }
@@ -168,7 +170,7 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
 fn numbers(
     sheet: &Sheet,
     row: &Row,
-    (time, to_seconds): (usize, f64),
+    time: NumberColumn,
     along: Column,
     stress: usize,
 ) -> Result<[f64; 3], TableMistake> {
@@ -180,5 +182,5 @@ fn numbers(
         };
         sheet.number(text).ok_or_else(wrong)
     };
-    Ok([to_seconds * number(time)?, number(along.at)?, number(stress)?])
+    Ok([time.factor * number(time.at)?, number(along.at)?, number(stress)?])
 }

@@ -4,7 +4,7 @@ use piola_document::units::Dimension;
 use piola_fit::nonlinear::{Extension, NonlinearFlow, ShearResponse};
 
 use crate::fitting::TableMistake;
-use crate::sheet::{Sheet, spelled, units_of, unknown};
+use crate::sheet::{NumberColumn as Column, Sheet, spelled, valid_units};
 
 const RATE: Dimension = Dimension { time: -1, ..Dimension::NONE };
 const VISCOSITY: Dimension = Dimension { length: -1, mass: 1, time: -1, angle: 0 };
@@ -25,7 +25,7 @@ const EXTENSION_RATE: &[&str] = &[
     "ε̇",
 ];
 
-/// A quantity that is measured: its names, what it is divided by to become one of a stress (a power of the rate), the flows that have it.
+/// A measured quantity: its names, its dimension, the power of the rate that makes it a stress, and the flows that have it.
 struct Quantity {
     names: &'static [&'static str],
     dimension: Dimension,
@@ -39,7 +39,7 @@ struct Quantity {
 
 use ShearResponse::{FirstNormalStressDifference as First, SecondNormalStressDifference as Second, ShearStress};
 
-const QUANTITIES: [Quantity; 8] = [
+const QUANTITIES: [Quantity; 9] = [
     Quantity {
         names: &["shear stress", "tau", "τ"],
         dimension: Dimension::PRESSURE,
@@ -89,6 +89,14 @@ const QUANTITIES: [Quantity; 8] = [
         in_extension: false,
     },
     Quantity {
+        names: &["psi2", "ψ2", "ψ₂", "second normal stress coefficient"],
+        dimension: COEFFICIENT,
+        si: "Pa s^2",
+        power: 2,
+        in_shear: Some(Second),
+        in_extension: false,
+    },
+    Quantity {
         names: &["extensional stress", "elongational stress", "tensile stress", "stress difference"],
         dimension: Dimension::PRESSURE,
         si: "Pa",
@@ -112,13 +120,6 @@ pub(super) fn is_known(plain: &str) -> bool {
     rates.iter().chain(QUANTITIES.iter().map(|quantity| &quantity.names)).any(|names| names.contains(&plain))
 }
 
-/// A column of numbers, and how they become SI.
-#[derive(Clone, Copy)]
-pub(super) struct Column {
-    pub(super) at: usize,
-    pub(super) factor: f64,
-}
-
 /// Where the rate stands.
 #[derive(Clone, Copy)]
 pub(super) enum Rate {
@@ -136,6 +137,16 @@ pub(super) struct Response {
     pub(super) power: i32,
     /// What is measured in shear.
     pub(super) shear: ShearResponse,
+}
+
+/// The rate of a start-up, 1/s.
+pub(super) const fn rate_of(flow: NonlinearFlow) -> Option<f64> {
+    match flow {
+        NonlinearFlow::ShearStartUp { shear_rate: rate, .. } | NonlinearFlow::ExtensionStartUp { rate, .. } => {
+            Some(rate)
+        }
+        _ => None,
+    }
 }
 
 /// The columns of a table.
@@ -160,20 +171,6 @@ impl Columns {
     }
 }
 
-/// The column of a quantity; two of them are a mistake.
-fn find(sheet: &Sheet, names: &[&str]) -> Result<Option<usize>, TableMistake> {
-    let found: Vec<usize> = sheet.columns(&|plain| names.contains(&plain)).collect();
-    match found.as_slice() {
-        [] => Ok(None),
-        [only] => Ok(Some(*only)),
-        several => {
-            let written: Vec<String> = several.iter().map(|&at| format!("`{}`", sheet.headings[at].written)).collect();
-            let what = format!("{} columns are the {}: {}", several.len(), names[0], written.join(", "));
-            Err(TableMistake::new(sheet.header_line, what, "one such column; rename the others"))
-        }
-    }
-}
-
 /// A column with its unit; without one it is in SI.
 fn column(
     sheet: &Sheet,
@@ -182,34 +179,23 @@ fn column(
     si: &str,
     notes: &mut Vec<String>,
 ) -> Result<Column, TableMistake> {
-    let heading = &sheet.headings[at];
-    let Some(text) = heading.unit.as_deref() else {
-        notes.push(format!("`{}` has no unit: read as {si}", heading.written));
-        return Ok(Column { at, factor: 1.0 });
-    };
-    let unit = spelled(text).filter(|unit| unit.dimension == dimension);
-    let valid = || {
-        let units = units_of(dimension);
-        if units.is_empty() { si.to_owned() } else { format!("one of {units}") }
-    };
-    let unit = unit.ok_or_else(|| TableMistake::new(sheet.header_line, unknown(text), valid()))?;
-    Ok(Column { at, factor: unit.to_si(1.0) })
+    sheet.in_units(at, dimension, (si, &valid_units(dimension, si)), notes)
 }
 
-/// The rate in a comment, as `# shear rate: 2 1/s`.
-fn stated(sheet: &Sheet, names: &[&str]) -> Result<Option<f64>, TableMistake> {
+/// The line and the rate of a comment, as `# shear rate: 2 1/s`.
+fn stated(sheet: &Sheet, names: &[&str]) -> Result<Option<(u64, f64)>, TableMistake> {
     let Some(setting) = sheet.settings.iter().find(|setting| names.contains(&setting.key.as_str())) else {
         return Ok(None);
     };
     let (number, unit) = setting.value.split_once(' ').unwrap_or((&setting.value, ""));
     let unit = spelled(unit).filter(|unit| unit.dimension == RATE);
-    let rate = number.replace(',', ".").parse::<f64>().ok().zip(unit).map(|(x, unit)| unit.to_si(x));
+    let rate = sheet.number(number).zip(unit).map(|(x, unit)| unit.to_si(x));
     let rate = rate.filter(|rate| 0.0 < *rate && rate.is_finite());
     let wrong = || {
         let what = format!("the {} is `{}`", names[0], setting.value);
         TableMistake::new(setting.line, what, "a positive number with its unit, as 2 1/s")
     };
-    rate.map(Some).ok_or_else(wrong)
+    rate.map(|rate| Some((setting.line, rate))).ok_or_else(wrong)
 }
 
 /// The kind of extension in a comment, as `# extension: planar`.
@@ -237,9 +223,13 @@ pub(super) fn columns(sheet: &Sheet, notes: &mut Vec<String>) -> Result<Columns,
         TableMistake::new(sheet.header_line, what, valid)
     };
     let mut rate_of = |names: &[&str]| -> Result<Option<Rate>, TableMistake> {
-        match find(sheet, names)? {
-            Some(at) => Ok(Some(Rate::Column(column(sheet, at, RATE, "1/s", notes)?))),
-            None => Ok(stated(sheet, names)?.map(Rate::Stated)),
+        match (sheet.column(names)?, stated(sheet, names)?) {
+            (Some(_), Some((line, _))) => {
+                let what = format!("the {} stands in a column and in this comment", names[0]);
+                Err(TableMistake::new(line, what, "one of them"))
+            }
+            (Some(at), None) => Ok(Some(Rate::Column(column(sheet, at, RATE, "1/s", notes)?))),
+            (None, stated) => Ok(stated.map(|(_, rate)| Rate::Stated(rate))),
         }
     };
     let (shear, extensional) = (rate_of(SHEAR_RATE)?, rate_of(EXTENSION_RATE)?);
@@ -255,7 +245,7 @@ pub(super) fn columns(sheet: &Sheet, notes: &mut Vec<String>) -> Result<Columns,
             return Err(missing("a rate", valid));
         }
     };
-    let time = match find(sheet, TIME)? {
+    let time = match sheet.column(TIME)? {
         Some(at) => Some(column(sheet, at, Dimension::TIME, "s", notes)?),
         None => None,
     };
@@ -265,7 +255,7 @@ pub(super) fn columns(sheet: &Sheet, notes: &mut Vec<String>) -> Result<Columns,
     let mut responses = Vec::new();
     for quantity in &QUANTITIES {
         let shear = if extension.is_none() { quantity.in_shear } else { quantity.in_extension.then_some(ShearStress) };
-        if let (Some(at), Some(shear)) = (find(sheet, quantity.names)?, shear) {
+        if let (Some(at), Some(shear)) = (sheet.column(quantity.names)?, shear) {
             let column = column(sheet, at, quantity.dimension, quantity.si, notes)?;
             responses.push(Response { column, power: quantity.power, shear });
         }

@@ -1,12 +1,14 @@
 //! Viscoelastic fluids from start-up of shear and extension, steady flows and normal stresses.
 //!
 //! ```text
+//! header of the file                                      flow
 //! shear rate [1/s],time [s],shear stress [Pa],N1 [Pa]     start-up of shear; without the time: steady shear
 //! extension rate [1/s],time [s],viscosity [Pa s]          start-up of extension; without the time: steady extension
-//! # shear rate: 2 1/s                                     a file of one rate may have it in a comment
 //! ```
-//! Each flow has a file of its own; several rates stand in the column of the rate or in several files. N₁ and N₂ are differences of normal
-//! stresses, N₂ negative. Of extension the response is the stress difference that drives it, or this over the rate.
+//! A file of one rate may have it in a comment, `# shear rate: 2 1/s`, instead of a column.
+//!
+//! Each flow has a file of its own; several rates stand in the column of the rate or in several files. Rates within 1 % are those of one
+//! start-up. N₁ and N₂ are differences of normal stresses, N₂ negative; their coefficients are ψ₁ = N₁/k² and ψ₂ = N₂/k². Of extension the response is the stress difference that drives it, or this over the rate.
 //! `# extension: planar` or `biaxial` says which; without it, it is uniaxial.
 
 mod columns;
@@ -35,7 +37,7 @@ use crate::sheet::read;
 pub struct NonlinearRequest {
     /// The fluids; without any, all that have the measured responses.
     pub fluids: Vec<NonlinearModel>,
-    /// The relaxation modes: so many are fitted, or they are given.
+    /// The relaxation modes: a number of modes whose viscosities and times are fitted, or given ones.
     pub modes: RelaxationModes,
     /// The probability of the intervals.
     pub confidence: f64,
@@ -75,8 +77,8 @@ impl Judged for FittedNonlinear {
 /// Fits each fluid to all flows at once.
 ///
 /// # Errors
-/// [`MeasuredError::Fit`] for modes that are none, or a confidence that is no probability. The refusal of a single fluid stands in its
-/// [`Candidate`](crate::comparison::Candidate).
+/// [`MeasuredError::Fit`] for invalid relaxation modes, or a confidence that is not between 0 and 1. The refusal of a single fluid stands in
+/// its [`Candidate`](crate::comparison::Candidate).
 ///
 /// # Example
 /// ```
@@ -113,6 +115,7 @@ pub fn compare_nonlinear_until(
     if !(0.0 < *confidence && *confidence < 1.0) {
         return Err(FitError::ConfidenceOutOfRange { value: *confidence }.into());
     }
+    modes.check()?;
     let options = Options { confidence: *confidence, modes: modes.clone(), ..Options::default() };
     let second = Some(ShearResponse::SecondNormalStressDifference);
     let has_second = table.flows.iter().any(|set| set.flow().shear_response() == second);
@@ -136,7 +139,10 @@ pub fn compare_nonlinear_until(
 pub fn modes_of_spectrum(path: &Path) -> Result<RelaxationModes, MeasuredError> {
     let text = read(path)?;
     let wrong = |valid: &'static str| MeasuredError::Argument { argument: path.display().to_string(), valid };
-    let summary: Value = serde_json::from_str(&text).unwrap_or_default();
+    let summary: Value = serde_json::from_str(&text).map_err(|error| MeasuredError::Argument {
+        argument: format!("{}: {error}", path.display()),
+        valid: "the summary.json of `piola spectrum`",
+    })?;
     if summary["equilibrium_modulus"].as_f64().is_some_and(|modulus| 0.0 < modulus) {
         return Err(wrong("the spectrum of a liquid: without --equilibrium"));
     }

@@ -7,6 +7,7 @@ use piola_fit::FitError;
 use piola_fit::nonlinear::{Extension, NonlinearData, NonlinearFlow, NonlinearModel, ShearResponse};
 use serde_json::{Value, json};
 
+use super::columns::rate_of;
 use super::{FittedNonlinear, NonlinearComparison, NonlinearTable, RelaxationModes, figure};
 use crate::rheology::{largest, parameter_in_words, rms};
 
@@ -35,16 +36,6 @@ pub(super) fn words(flow: NonlinearFlow) -> String {
     }
 }
 
-/// The rate of a start-up, 1/s.
-const fn rate(flow: NonlinearFlow) -> Option<f64> {
-    match flow {
-        NonlinearFlow::ShearStartUp { shear_rate: rate, .. } | NonlinearFlow::ExtensionStartUp { rate, .. } => {
-            Some(rate)
-        }
-        _ => None,
-    }
-}
-
 impl FittedNonlinear {
     /// Points of a curve through the drives of a flow, evenly in their logarithms: (drive, answer).
     pub(super) fn curve(&self, model: NonlinearModel, set: &NonlinearData) -> Result<Vec<[f64; 2]>, FitError> {
@@ -62,28 +53,39 @@ impl FittedNonlinear {
     }
 }
 
+impl FittedNonlinear {
+    /// Why `predictions.csv` and the figure have no curve of a flow; none where they have one.
+    fn why_no_curve(&self, model: NonlinearModel, set: &NonlinearData) -> Option<String> {
+        self.curve(model, set).err().map(|error| error.to_string())
+    }
+}
+
 impl NonlinearComparison {
     /// The numbers, as they stand in `summary.json`.
     #[must_use]
     pub fn summary(&self, table: &NonlinearTable) -> String {
         let fluid = |model: &NonlinearModel, found: &Result<FittedNonlinear, FitError>| -> Value {
-            let FittedNonlinear { fit, .. } = match found {
+            let found = match found {
                 Ok(found) => found,
                 Err(error) => return json!({ "fluid": model.name(), "failure": error.to_string() }),
             };
+            let fit = &found.fit;
             let flows = table.flows.iter().zip(&fit.residuals).map(|(set, residuals)| {
                 json!({ "flow": words(set.flow()), "rows": residuals.len(), "rms_residual": rms(residuals),
-                        "largest_residual": largest(residuals) })
+                        "largest_residual": largest(residuals), "no_curve": found.why_no_curve(*model, set) })
             });
             json!({
                 "fluid": model.name(),
                 "law": serde_json::to_value(&fit.fluid).unwrap_or_default(),
+                "modes": serde_json::to_value(&found.modes).unwrap_or_default(),
                 "parameters": serde_json::to_value(&fit.parameters).unwrap_or_default(),
                 "flows": flows.collect::<Vec<Value>>(),
                 "squares": fit.squares,
                 "criteria": serde_json::to_value(fit.criteria).unwrap_or_default(),
                 "autocorrelation": serde_json::to_value(fit.autocorrelation).unwrap_or_default(),
                 "converged": fit.outcome.is_converged(),
+                "evaluations": fit.evaluations,
+                "starts_that_agree": fit.starts_that_agree,
             })
         };
         let candidates = self.candidates.iter();
@@ -91,6 +93,7 @@ impl NonlinearComparison {
             "data": table.path.display().to_string(),
             "rows": table.rows(),
             "read": table.notes,
+            "minimised": "sum of squares of ln(model/measured)",
             "best_by_aicc": self.best().map(|(fluid, _)| fluid.name()),
             "not_told_apart_from_the_best": self.rivals().map(|(fluid, _)| fluid.name()).collect::<Vec<_>>(),
             "interrupted": self.interrupted,
@@ -140,15 +143,21 @@ impl NonlinearComparison {
             }
         }
         text.push('\n');
-        for (fluid, FittedNonlinear { fit, modes }) in self.fits() {
+        for (fluid, found) in self.fits() {
+            let FittedNonlinear { fit, modes } = found;
             let _ = writeln!(text, "{fluid}");
             if let RelaxationModes::Given(spectrum) = modes {
                 let _ = writeln!(text, "  {} relaxation modes are given", spectrum.len());
             }
             for found in &fit.parameters {
-                let line =
-                    parameter_in_words(&found.name, found.value, (found.standard_error, found.interval, found.state));
+                let told = (found.standard_error, found.interval, found.state);
+                let line = parameter_in_words((&found.name, 26), found.value, "", told);
                 let _ = writeln!(text, "{line}");
+            }
+            for set in &table.flows {
+                if let Some(why) = found.why_no_curve(fluid, set) {
+                    let _ = writeln!(text, "  no curve of {}: {why}", words(set.flow()));
+                }
             }
         }
         text.push('\n');
@@ -158,7 +167,7 @@ impl NonlinearComparison {
     /// Writes `summary.json`, `residuals.csv`, the curves of all fluids in `predictions.csv`, and `fit.svg`.
     #[must_use]
     pub fn write(&self, folder: &Folder, table: &NonlinearTable) -> Written {
-        let drives = |flow: NonlinearFlow, drive: f64| match rate(flow) {
+        let drives = |flow: NonlinearFlow, drive: f64| match rate_of(flow) {
             Some(rate) => format!("\"{}\",{rate:?},{drive:?}", words(flow)),
             None => format!("\"{}\",{drive:?},", words(flow)),
         };

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use piola_fit::nonlinear::{NonlinearData, NonlinearFlow, ShearResponse};
 
-use super::columns::{Column, Columns, Rate, columns, is_known};
+use super::columns::{Columns, Rate, columns, is_known, rate_of};
 use crate::MeasuredError;
 use crate::fitting::{TableMistake, TableReport};
-use crate::sheet::{Row, Sheet, read};
+use crate::sheet::{NumberColumn as Column, Row, Sheet, read};
 
 /// Measured flows of one fluid.
 ///
@@ -27,7 +27,7 @@ use crate::sheet::{Row, Sheet, read};
 pub struct NonlinearTable {
     /// The file, or the first of several.
     pub path: PathBuf,
-    /// The flows: one for each response, and of start-up for each rate.
+    /// The flows: one for each response, and of start-up for each rate. Rates within 1 % are one.
     pub flows: Vec<NonlinearData>,
     /// What was read in a way that a reader must know, as sentences without a full stop.
     pub notes: Vec<String>,
@@ -38,35 +38,29 @@ impl NonlinearTable {
     ///
     /// # Errors
     /// [`MeasuredError::Unreadable`], [`MeasuredError::TooLarge`], [`MeasuredError::NotText`]; [`MeasuredError::Table`] with every
-    /// mistake and its line.
+    /// mistake and its line; [`MeasuredError::Argument`] for more than 500 flows.
     pub fn load(paths: &[PathBuf]) -> Result<Self, MeasuredError> {
         let none = MeasuredError::Argument { argument: "no file".to_owned(), valid: "a file of stresses, or several" };
-        let mut tables = paths.iter().map(|path| Self::parse(path, &read(path)?));
-        let mut all = tables.next().ok_or(none)??;
-        for table in tables {
-            let table = table?;
-            for set in table.flows {
-                let rows = set.rows().iter().map(|row| (set.flow(), *row));
-                add(&mut all.flows, rows)?;
-            }
-            let notes: Vec<String> = table.notes.into_iter().filter(|note| !all.notes.contains(note)).collect();
-            all.notes.extend(notes);
+        let first = paths.first().ok_or(none)?;
+        let (mut all, mut notes) = (Vec::new(), Vec::new());
+        for path in paths {
+            let (rows, own) = rows_of(path, &read(path)?)?;
+            all.extend(rows);
+            let own: Vec<String> = own.into_iter().filter(|note| !notes.contains(note)).collect();
+            notes.extend(own);
         }
-        Ok(all)
+        let flows = grouped(all.into_iter(), &mut notes)?;
+        Ok(Self { path: first.clone(), flows, notes })
     }
 
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// [`MeasuredError::Table`].
+    /// [`MeasuredError::Table`]; [`MeasuredError::Argument`] for more than 500 flows.
     pub fn parse(path: impl Into<PathBuf>, text: &str) -> Result<Self, MeasuredError> {
         let path = path.into();
-        let (rows, notes) = match rows(text) {
-            Ok(found) => found,
-            Err(mistakes) => return Err(MeasuredError::Table(TableReport::new(path, mistakes))),
-        };
-        let mut flows = Vec::new();
-        add(&mut flows, rows.into_iter())?;
+        let (rows, mut notes) = rows_of(&path, text)?;
+        let flows = grouped(rows.into_iter(), &mut notes)?;
         Ok(Self { path, flows, notes })
     }
 
@@ -83,29 +77,75 @@ impl NonlinearTable {
     }
 }
 
-/// Adds rows to the sets of their flows.
-fn add(
-    flows: &mut Vec<NonlinearData>,
-    rows: impl Iterator<Item = (NonlinearFlow, [f64; 2])>,
-) -> Result<(), MeasuredError> {
-    let mut sets: Vec<(NonlinearFlow, Vec<[f64; 2]>)> =
-        flows.drain(..).map(|set| (set.flow(), set.rows().to_vec())).collect();
-    for (flow, row) in rows {
-        match sets.iter_mut().find(|(other, _)| *other == flow) {
-            Some((_, rows)) => rows.push(row),
-            None => sets.push((flow, vec![row])),
+/// Start-ups at rates within this factor are one.
+const SAME_RATE: f64 = 1.01;
+/// The most flows of a table.
+const MOST_FLOWS: usize = 500;
+
+/// The flow at another rate; a steady one has none.
+const fn at_rate(flow: NonlinearFlow, rate: f64) -> NonlinearFlow {
+    match flow {
+        NonlinearFlow::ShearStartUp { response, .. } => NonlinearFlow::ShearStartUp { shear_rate: rate, response },
+        NonlinearFlow::ExtensionStartUp { extension, .. } => NonlinearFlow::ExtensionStartUp { extension, rate },
+        steady => steady,
+    }
+}
+
+/// Rows with their order, by flow at the rate 1/s, each with its rate.
+type Kinds = Vec<(NonlinearFlow, Vec<(f64, usize, [f64; 2])>)>;
+
+/// The flows of all rows, in the order of their first rows. Start-ups at rates within 1 % are one, at the mean of the rates of their rows;
+/// a note says so.
+fn grouped(rows: impl Iterator<Item = FlowRow>, notes: &mut Vec<String>) -> Result<Vec<NonlinearData>, MeasuredError> {
+    let mut kinds: Kinds = Vec::new();
+    for (order, (flow, row)) in rows.enumerate() {
+        let kind = at_rate(flow, 1.0);
+        let rate = rate_of(flow).unwrap_or(1.0);
+        match kinds.iter_mut().find(|(other, _)| *other == kind) {
+            Some((_, rows)) => rows.push((rate, order, row)),
+            None => kinds.push((kind, vec![(rate, order, row)])),
         }
     }
-    for (flow, rows) in sets {
-        flows.push(NonlinearData::new(flow, rows)?);
+    let mut found = Vec::new();
+    for (kind, mut rows) in kinds {
+        rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut rest = rows.as_slice();
+        while let Some(&(least, ..)) = rest.first() {
+            let count = rest.partition_point(|(rate, ..)| *rate <= SAME_RATE * least);
+            let (these, others) = rest.split_at(count);
+            rest = others;
+            let greatest = these.last().map_or(least, |(rate, ..)| *rate);
+            let mut rate = least;
+            if least < greatest {
+                rate += these.iter().map(|(rate, ..)| (rate - least) / count as f64).sum::<f64>();
+                let note =
+                    format!("rates within 1 % are one start-up: {least} to {greatest} 1/s are read as {rate:.6} 1/s");
+                if !notes.contains(&note) {
+                    notes.push(note);
+                }
+            }
+            let first = these.iter().map(|(_, order, _)| *order).min().unwrap_or(0);
+            let mut these: Vec<(usize, [f64; 2])> = these.iter().map(|(_, order, row)| (*order, *row)).collect();
+            these.sort_by_key(|(order, _)| *order);
+            found.push((first, at_rate(kind, rate), these.into_iter().map(|(_, row)| row).collect::<Vec<_>>()));
+        }
     }
-    Ok(())
+    if MOST_FLOWS < found.len() {
+        let argument = format!("a table of {} flows", found.len());
+        return Err(MeasuredError::Argument { argument, valid: "at most 500 rates and responses of start-up" });
+    }
+    found.sort_by_key(|(first, ..)| *first);
+    found.into_iter().map(|(_, flow, rows)| Ok(NonlinearData::new(flow, rows)?)).collect()
 }
 
 /// A drive and a response, with the flow that they are of.
 type FlowRow = (NonlinearFlow, [f64; 2]);
 /// Rows of a table by their flows, and notes.
 type Rows = (Vec<FlowRow>, Vec<String>);
+
+fn rows_of(path: &Path, text: &str) -> Result<Rows, MeasuredError> {
+    rows(text).map_err(|mistakes| MeasuredError::Table(TableReport::new(path.to_owned(), mistakes)))
+}
 
 fn rows(text: &str) -> Result<Rows, Vec<TableMistake>> {
     let sheet = Sheet::parse(text, &is_known)?;
@@ -168,6 +208,12 @@ fn read_row(sheet: &Sheet, row: &Row, columns: &Columns) -> Result<Option<Vec<Fl
             positive(column)?
         };
         let stress = stress * rate.powi(response.power);
+        if !stress.is_normal() {
+            return Err(wrong(
+                column.at,
+                "a number whose stress, times the power of the rate, is neither zero nor infinite",
+            ));
+        }
         answers.push((columns.flow(*response, rate), [t.unwrap_or(rate), stress]));
     }
     if answers.is_empty() {

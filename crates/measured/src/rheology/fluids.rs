@@ -354,8 +354,12 @@ impl Comparison {
         for (fluid, fit) in self.fits() {
             let _ = writeln!(text, "{fluid}");
             for found in &fit.parameters {
-                let line =
-                    parameter_in_words(found.name, found.value, (found.standard_error, found.interval, found.state));
+                let line = parameter_in_words(
+                    (found.name, 26),
+                    found.value,
+                    "",
+                    (found.standard_error, found.interval, found.state),
+                );
                 let _ = writeln!(text, "{line}");
             }
         }
@@ -422,21 +426,23 @@ impl Comparison {
     }
 }
 
-/// A parameter with its interval for a reader.
+/// A parameter with its interval for a reader; its name is padded, its unit stands after its value.
 pub(crate) fn parameter_in_words(
-    name: &str,
+    (name, width): (&str, usize),
     value: f64,
+    unit: &str,
     (standard_error, interval, state): (Option<f64>, Option<[f64; 2]>, State),
 ) -> String {
-    let mut line = format!("  {name:<26}");
+    let mut line = format!("  {name:<width$}");
     let _ = match (state, standard_error, interval) {
-        (State::AtBound, _, Some([_, high])) => write!(line, "{:>13}  at its bound, below {high:.4e}", 0),
-        (State::AtBound, _, None) => write!(line, "{value:>13.5e}  at its bound"),
+        (State::AtBound, _, Some([_, high])) => write!(line, "{:>13}{unit}  at its bound, below {high:.4e}", 0),
+        (State::AtBound, _, None) => write!(line, "{value:>13.5e}{unit}  at its bound"),
+        (State::Held, ..) => write!(line, "{value:>13.5e}{unit}  held"),
         (State::Determined, Some(error), Some([low, high])) => {
-            write!(line, "{value:>13.5e} ± {error:.1e}  [{}, {}]", end(low), end(high))
+            write!(line, "{value:>13.5e} ± {error:.1e}{unit}  [{}, {}]", end(low), end(high))
         }
-        (State::NoDegreesOfFreedom, _, _) => write!(line, "{value:>13.5e}  no error: no degrees of freedom"),
-        _ => write!(line, "{value:>13.5e}  not determined by these data"),
+        (State::NoDegreesOfFreedom, _, _) => write!(line, "{value:>13.5e}{unit}  no error: no degrees of freedom"),
+        _ => write!(line, "{value:>13.5e}{unit}  not determined by these data"),
     };
     line
 }

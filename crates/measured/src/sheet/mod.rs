@@ -7,10 +7,12 @@
 //! ```
 //! Byte-order marks, line ends of all systems, blank lines, comments and a line of units below the header are read.
 
+mod columns;
 mod heading;
 mod spelling;
 mod text;
 
+pub(crate) use columns::{NumberColumn, valid_units};
 pub(crate) use heading::{Heading, plain};
 pub use spelling::spelled;
 pub(crate) use spelling::{units_of, unknown};

@@ -21,11 +21,6 @@ pub(super) fn is_known(plain: &str) -> bool {
     ALL.iter().any(|names| names.contains(&plain))
 }
 
-/// The first column of one of these names.
-pub(crate) fn find(sheet: &Sheet, names: &'static [&'static str]) -> Option<usize> {
-    sheet.columns(&|plain| names.contains(&plain)).next()
-}
-
 /// A stretch, or a strain, in its column.
 #[derive(Clone, Copy)]
 pub(crate) struct Column {
@@ -41,13 +36,16 @@ impl Column {
         stretch: &'static [&str],
         strain: &'static [&str],
     ) -> Result<Option<Self>, TableMistake> {
-        let found = find(sheet, stretch).map(|at| (at, false)).or_else(|| find(sheet, strain).map(|at| (at, true)));
-        let Some((at, is_strain)) = found else { return Ok(None) };
+        let (at, is_strain) = match (sheet.column(stretch)?, sheet.column(strain)?) {
+            (Some(at), _) => (at, false),
+            (None, Some(at)) => (at, true),
+            (None, None) => return Ok(None),
+        };
         let unit = match sheet.headings[at].unit.as_deref().map(|text| (text, spelled(text))) {
             None => 1.0,
             Some((_, Some(unit))) if unit.dimension == Dimension::NONE => unit.to_si(1.0),
             Some((text, _)) => {
-                let what = format!("`{text}` is no unit of a stretch or strain");
+                let what = format!("`{text}` is not a unit of a stretch or strain");
                 return Err(TableMistake::new(sheet.header_line, what, "%, or - for a pure number"));
             }
         };

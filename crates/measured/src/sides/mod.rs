@@ -152,6 +152,7 @@ impl SidesComparison {
 const fn state(state: piola_fit::State) -> &'static str {
     match state {
         piola_fit::State::AtBound => "at its bound",
+        piola_fit::State::Held => "held",
         piola_fit::State::Undetermined => "not determined",
         piola_fit::State::NoDegreesOfFreedom => "no degrees of freedom",
         piola_fit::State::Determined => "",

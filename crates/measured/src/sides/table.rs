@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use piola_fit::sides::{Loading, SidesTest};
 
 use super::columns::{
-    ANGLE, Column, MODE, SIDE, SIDE_STRAIN, STRAIN, STRESS, STRETCH, field, find, is_known, loading, stress_unit,
+    ANGLE, Column, MODE, SIDE, SIDE_STRAIN, STRAIN, STRESS, STRETCH, field, is_known, loading, stress_unit,
 };
 use crate::MeasuredError;
 use crate::fitting::{TableMistake, TableReport};
@@ -84,8 +84,9 @@ fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
     let along =
         along.ok_or_else(|| missing("stretch or a strain", "a column `stretch`, `strain [%]` or `strain [-]`"))?;
     let side = Column::of(&sheet, SIDE, SIDE_STRAIN).map_err(one)?;
-    let stress = find(&sheet, STRESS).ok_or_else(|| missing("stress", "a column `stress [MPa]`"))?;
-    let (modes, angles) = (find(&sheet, MODE), find(&sheet, ANGLE));
+    let find = |names: &[&str]| sheet.column(names).map_err(one);
+    let stress = find(STRESS)?.ok_or_else(|| missing("stress", "a column `stress [MPa]`"))?;
+    let (modes, angles) = (find(MODE)?, find(ANGLE)?);
     if modes.is_none() && angles.is_none() {
         return Err(missing("mode or an angle", "a column `mode`, or a column `angle` of uniaxial specimens"));
     }

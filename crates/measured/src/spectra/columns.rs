@@ -6,7 +6,7 @@ use piola_document::units::Dimension;
 
 use super::Response;
 use crate::fitting::TableMistake;
-use crate::sheet::{Sheet, spelled, units_of, unknown};
+use crate::sheet::{NumberColumn as Column, Sheet, spelled, unknown, valid_units};
 
 const FREQUENCY: &[&str] = &["frequency", "freq", "f", "ν"];
 const ANGULAR: &[&str] = &["angular frequency", "angular freq", "ang frequency", "omega", "ω", "w"];
@@ -45,45 +45,16 @@ pub(super) fn kelvin(value: f64, unit: &str) -> Option<f64> {
     (0.0 < found && found.is_finite()).then_some(found)
 }
 
-/// A column of numbers, and how they become SI.
-#[derive(Clone, Copy)]
-pub(super) struct Column {
-    pub(super) at: usize,
-    pub(super) factor: f64,
-}
-
-/// The column of a quantity; two of them are a mistake.
-fn column(sheet: &Sheet, names: &[&str]) -> Result<Option<usize>, TableMistake> {
-    let found: Vec<usize> = sheet.columns(&|plain| names.contains(&plain)).collect();
-    match found.as_slice() {
-        [] => Ok(None),
-        [only] => Ok(Some(*only)),
-        several => {
-            let written: Vec<String> = several.iter().map(|&at| format!("`{}`", sheet.headings[at].written)).collect();
-            let what = format!("{} columns are the {}: {}", several.len(), names[0], written.join(", "));
-            Err(TableMistake::new(sheet.header_line, what, "one such column; rename the others"))
-        }
-    }
-}
-
 /// A modulus, or of creep a compliance; without a unit it is in SI.
 fn modulus(sheet: &Sheet, at: usize, response: Response, notes: &mut Vec<String>) -> Result<Column, TableMistake> {
     let compliance = Dimension::NONE.over(Dimension::PRESSURE);
     let (dimension, si) = if response == Response::Creep { (compliance, "1/Pa") } else { (Dimension::PRESSURE, "Pa") };
-    let Some(text) = sheet.headings[at].unit.as_deref() else {
-        notes.push(format!("`{}` has no unit: read as {si}", sheet.headings[at].written));
-        return Ok(Column { at, factor: 1.0 });
+    let valid = if response == Response::Creep {
+        "1/Pa, 1/kPa, 1/MPa, 1/GPa, m^2/N or cm^2/dyn".to_owned()
+    } else {
+        valid_units(dimension, si)
     };
-    let unit = spelled(text).filter(|unit| unit.dimension == dimension);
-    let valid = || {
-        if response == Response::Creep {
-            "1/Pa, 1/kPa, 1/MPa, 1/GPa, m^2/N or cm^2/dyn".to_owned()
-        } else {
-            format!("one of {}", units_of(dimension))
-        }
-    };
-    let unit = unit.ok_or_else(|| TableMistake::new(sheet.header_line, unknown(text), valid()))?;
-    Ok(Column { at, factor: unit.to_si(1.0) })
+    sheet.in_units(at, dimension, (si, &valid), notes)
 }
 
 /// The frequency or the time.
@@ -91,14 +62,7 @@ fn abscissa(sheet: &Sheet, at: usize, response: Response, notes: &mut Vec<String
     let heading = &sheet.headings[at];
     let unit = heading.unit.as_deref().map(|text| (text, spelled(text)));
     if response != Response::Oscillation {
-        return match unit {
-            None => {
-                notes.push(format!("`{}` has no unit: read as s", heading.written));
-                Ok(Column { at, factor: 1.0 })
-            }
-            Some((_, Some(unit))) if unit.dimension == Dimension::TIME => Ok(Column { at, factor: unit.to_si(1.0) }),
-            Some((text, _)) => Err(TableMistake::new(sheet.header_line, unknown(text), "s, ms, min or h")),
-        };
+        return sheet.in_units(at, Dimension::TIME, ("s", "s, ms, min or h"), notes);
     }
     let is_angular = ANGULAR.contains(&heading.plain.as_str());
     let rate = Dimension { time: -1, ..Dimension::NONE };
@@ -143,8 +107,8 @@ pub(super) fn columns(sheet: &Sheet, notes: &mut Vec<String>) -> Result<Columns,
         let what = format!("no column is {what}: the columns are {}", sheet.names());
         TableMistake::new(sheet.header_line, what, valid)
     };
-    let (storage, loss) = (column(sheet, STORAGE)?, column(sheet, LOSS)?);
-    let (relaxation, creep) = (column(sheet, RELAXATION)?, column(sheet, CREEP)?);
+    let (storage, loss) = (sheet.column(STORAGE)?, sheet.column(LOSS)?);
+    let (relaxation, creep) = (sheet.column(RELAXATION)?, sheet.column(CREEP)?);
     let (response, moduli) = match (storage, loss, relaxation, creep) {
         (Some(storage), Some(loss), _, _) => (Response::Oscillation, vec![storage, loss]),
         (None, None, Some(_), Some(_)) => {
@@ -160,14 +124,14 @@ pub(super) fn columns(sheet: &Sheet, notes: &mut Vec<String>) -> Result<Columns,
         }
     };
     let x = if response == Response::Oscillation {
-        let x = column(sheet, ANGULAR)?.map_or_else(|| column(sheet, FREQUENCY), |x| Ok(Some(x)))?;
+        let x = sheet.column(ANGULAR)?.map_or_else(|| sheet.column(FREQUENCY), |x| Ok(Some(x)))?;
         x.ok_or_else(|| missing("a frequency", "`angular frequency [rad/s]`"))?
     } else {
-        column(sheet, TIME)?.ok_or_else(|| missing("a time", "`time [s]`"))?
+        sheet.column(TIME)?.ok_or_else(|| missing("a time", "`time [s]`"))?
     };
     let at = abscissa(sheet, x, response, notes)?;
     let moduli = moduli.into_iter().map(|at| modulus(sheet, at, response, notes)).collect::<Result<_, _>>()?;
-    let temperature = column(sheet, TEMPERATURE)?.map(|at| {
+    let temperature = sheet.column(TEMPERATURE)?.map(|at| {
         let unit = sheet.headings[at].unit.clone();
         (
             at,

@@ -334,12 +334,13 @@ fn shifts(found: &Superposition) -> Value {
 fn told(found: &Superposition) -> String {
     let mut text = format!("shifted to {:.1} °C\n", found.reference_temperature - ICE);
     for (k, [temperature, shift]) in found.shifts.iter().enumerate() {
+        let range =
+            |ends: Option<[f64; 2]>| ends.map_or_else(String::new, |[low, high]| format!(" [{low:.4}, {high:.4}]"));
         let across = found.vertical.as_ref().map_or_else(String::new, |b| {
-            let within =
-                found.intervals[k][1].map_or_else(String::new, |[low, high]| format!(" [{low:.4}, {high:.4}]"));
-            format!("   ln bₜ = {:.4}{within}", b[k])
+            format!("   ln bₜ = {:.4}{}", b[k], range(found.intervals.get(k).and_then(|both| both[1])))
         });
-        let _ = writeln!(text, "{:>10.1} °C   ln aₜ = {shift:.4}{across}", temperature - ICE);
+        let along = range(found.intervals.get(k).and_then(|both| both[0]));
+        let _ = writeln!(text, "{:>10.1} °C   ln aₜ = {shift:.4}{along}{across}", temperature - ICE);
     }
     match &found.arrhenius {
         Ok(fit) => {

@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use super::columns::{Column, Columns, TEMPERATURE, columns, is_known, kelvin};
+use super::columns::{Columns, TEMPERATURE, columns, is_known, kelvin};
 use super::isotherms::{Group, grouped, told_of};
 use super::response::{Isotherm, Response, ResponseRow};
 use crate::MeasuredError;
 use crate::fitting::{TableMistake, TableReport};
-use crate::sheet::{Row, Sheet, read};
+use crate::sheet::{NumberColumn as Column, Row, Sheet, read};
 
 /// Moduli or compliances of one material.
 ///

@@ -39,10 +39,73 @@ fn several_rates_of_a_column_are_several_flows_in_si() {
     let table = NonlinearTable::parse("melt.csv", text).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(table.flows[0].flow(), NonlinearFlow::SteadyExtension(Extension::Planar));
     assert_eq!(table.flows[0].rows(), [[0.1, 200.0]]);
-    // Ψ₁ = N₁/k².
-    let text = "shear rate [1/s],psi1 [Pa s^2]\n3,2\n";
+    // ψ₁ = N₁/k², ψ₂ = N₂/k².
+    let text = "shear rate [1/s],psi1 [Pa s^2],psi2 [Pa s^2]\n3,2,-0.5\n";
     let table = NonlinearTable::parse("melt.csv", text).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(table.flows[0].rows(), [[3.0, 18.0]]);
+    assert_eq!((table.flows[0].rows(), table.flows[1].rows()), (&[[3.0, 18.0]][..], &[[3.0, -4.5]][..]));
+    // A number in a comment is read as those of the rows.
+    let text = "# shear rate: 0,5 1/s\ntime [s];stress [Pa]\n1,5;2\n";
+    let table = NonlinearTable::parse("melt.csv", text).unwrap_or_else(|error| panic!("{error}"));
+    let half = NonlinearFlow::ShearStartUp { shear_rate: 0.5, response: ShearResponse::ShearStress };
+    assert_eq!(table.flows[0].flow(), half);
+}
+
+#[test]
+fn measured_rates_within_a_percent_are_one_start_up_also_of_two_files() {
+    let text = "time [s],shear rate [1/s],stress [Pa]\n1,0.9998,2\n2,1.0002,3\n3,1.5,4\n4,1,5\n";
+    let table = NonlinearTable::parse("melt.csv", text).unwrap_or_else(|error| panic!("{error}"));
+    let counts: Vec<usize> = table.flows.iter().map(|flow| flow.rows().len()).collect();
+    assert_eq!(counts, [3, 1]);
+    let NonlinearFlow::ShearStartUp { shear_rate, .. } = table.flows[0].flow() else { panic!("a start-up of shear") };
+    assert!((shear_rate - 1.0).abs() < 1e-15, "{shear_rate}");
+    let note = "rates within 1 % are one start-up: 0.9998 to 1.0002 1/s are read as 1.000000 1/s";
+    assert!(table.notes.iter().any(|found| found == note), "{:?}", table.notes);
+    let path = folder("rates");
+    let files = [
+        ("a.csv", "# shear rate: 2 1/s\ntime [s],stress [Pa]\n1,2\n"),
+        ("b.csv", "# shear rate: 2.01 1/s\ntime [s],stress [Pa]\n2,3\n"),
+    ];
+    let files = files.map(|(name, text)| {
+        std::fs::write(path.join(name), text).unwrap_or_else(|error| panic!("{error}"));
+        path.join(name)
+    });
+    let both = NonlinearTable::load(&files).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!((both.flows.len(), both.rows()), (1, 2));
+    // Each rate would be a flow of its own.
+    let many = (0..501).fold("time [s],shear rate [1/s],stress [Pa]\n".to_owned(), |mut text, k| {
+        let _ = writeln!(text, "1,{:?},1", 1.02_f64.powi(k));
+        text
+    });
+    let told = NonlinearTable::parse("melt.csv", &many).expect_err("501 rates").to_string();
+    assert!(told.starts_with("`a table of 501 flows` is not accepted; valid: at most 500"), "{told}");
+    let _ = std::fs::remove_dir_all(&path);
+}
+
+#[test]
+fn invalid_modes_are_refused_before_anything_is_fitted_and_results_say_how_they_were_found() {
+    let text = "shear rate [1/s],N1 [Pa],shear stress [Pa]\n1,16,3\n2,64,6\n3,144,9\n4,256,12\n";
+    let table = NonlinearTable::parse("boger.csv", text).unwrap_or_else(|error| panic!("{error}"));
+    let mut request = NonlinearRequest::default();
+    request.fluids = vec![NonlinearModel::OldroydB];
+    request.modes = RelaxationModes::Fitted(0);
+    let told = compare_nonlinear(&table, &request).expect_err("no modes").to_string();
+    assert_eq!(told, "the number of relaxation modes is 0; it must be at least 1, and at most 6 if they are fitted");
+    request.modes = RelaxationModes::Given(vec![piola_fluids::Relaxation { viscosity: 2.0, time: 4.0 }]);
+    let mut found = compare_nonlinear(&table, &request).unwrap_or_else(|error| panic!("{error}"));
+    let summary: serde_json::Value = serde_json::from_str(&found.summary(&table)).expect("JSON");
+    assert_eq!(summary["minimised"], "sum of squares of ln(model/measured)");
+    let fluid = &summary["fluids"][0];
+    assert_eq!(
+        (&fluid["modes"]["given"][0]["time"], &fluid["flows"][0]["no_curve"]),
+        (&4.0.into(), &serde_json::Value::Null)
+    );
+    assert!(fluid["evaluations"].is_u64() && fluid["starts_that_agree"].is_u64(), "{fluid}");
+    // A curve that cannot be computed is told.
+    if let Ok(fit) = &mut found.candidates[0].fit {
+        fit.modes = RelaxationModes::Given(Vec::new());
+    }
+    let shown = found.table(&table);
+    assert!(shown.contains("  no curve of steady shear, N1: the number of relaxation modes is 0"), "{shown}");
 }
 
 #[test]
@@ -58,6 +121,13 @@ fn tables_that_cannot_be_read_are_refused_with_their_line() {
         ("time [s],shear rate [1/s],stress [Pa]\n-1,1,2\n", "f.csv:2: `time [s]` is `-1`"),
         ("shear rate [1/s],stress [Pa]\n1,\n", "f.csv:2: a row without a response"),
         ("shear rate [1/s],stress [Pa]\n", "f.csv:1: the table has a header and no rows"),
+        ("# shear rate: 1\nshear rate [1/s],stress [Pa]\n1,2\n", "f.csv:1: the shear rate is `1`"),
+        ("# shear rate: 1 1/s\nshear rate [1/s],stress [Pa]\n1,2\n", "f.csv:1: the shear rate stands in a column and"),
+        ("# shear rate: 1,000 1/s\ntime [s],stress [Pa]\n1,2\n", "f.csv:1: the shear rate is `1,000 1/s`"),
+        (
+            "shear rate [1/s],psi1 [Pa s^2]\n1,1\n1e-200,2\n",
+            "f.csv:3: `psi1 [Pa s^2]` is `2`; valid: a number whose stress",
+        ),
         ("# shear rate: two\ntime [s],stress [Pa]\n1,2\n", "f.csv:1: the shear rate is `two`"),
         ("# extension: radial\nstrain rate [1/s],stress [Pa]\n1,2\n", "f.csv:1: the extension is `radial`"),
     ] {
@@ -123,5 +193,8 @@ fn modes_are_fitted_or_taken_from_a_spectrum_and_the_results_are_read_again() {
     std::fs::write(&file, "{}").unwrap_or_else(|error| panic!("{error}"));
     let told = modes_of_spectrum(&file).expect_err("no modes").to_string();
     assert!(told.ends_with("valid: the summary.json of `piola spectrum`"), "{told}");
+    std::fs::write(&file, "{\n  \"modes\": [,]\n}").unwrap_or_else(|error| panic!("{error}"));
+    let told = modes_of_spectrum(&file).expect_err("no JSON").to_string();
+    assert!(told.contains("at line 2 column 13"), "{told}");
     let _ = std::fs::remove_dir_all(&path);
 }

@@ -1,5 +1,6 @@
 //! Tables with noise: seeded trials.
 
+use piola_testkit::NormalNoise;
 use piola_testkit::golden::text;
 use piola_viscometry::recover::{
     Criterion, FlowCurve, FlowTable, Monotonicity, Noise, Options, Rise, couette, pipe_with,
@@ -8,24 +9,6 @@ use serde_json::Value;
 
 use super::golden::{cases, recovered};
 
-/// `SplitMix64` and the transform of Box and Muller.
-pub(super) struct Normal(pub(super) u64);
-
-impl Normal {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub(super) fn draw(&mut self) -> f64 {
-        let (u, v) = (1.0 - self.uniform(), self.uniform());
-        (-2.0 * u.ln()).sqrt() * (core::f64::consts::TAU * v).cos()
-    }
-}
-
 /// Trials in which the band holds every true point at once.
 fn held(case: &Value, flow: &str, trials: u32) -> u32 {
     // Each fluid and flow has noise of its own.
@@ -33,7 +16,7 @@ fn held(case: &Value, flow: &str, trials: u32) -> u32 {
         .bytes()
         .chain(flow.bytes())
         .fold(2026_u64, |seed, byte| u64::wrapping_add(u64::wrapping_mul(seed, 31), byte.into()));
-    let mut normal = Normal(seed);
+    let mut normal = NormalNoise(seed);
     let mut held = 0;
     for _ in 0..trials {
         let (curve, truth) = recovered(case, flow, || 0.01 * normal.draw()).expect("a curve");
@@ -73,7 +56,7 @@ fn bands_of_coaxial_cylinders_with_a_percent_of_noise_hold_the_truth_in_nine_of_
 }
 
 fn noisy_rows(level: f64, slope: f64) -> Vec<[f64; 2]> {
-    let mut normal = Normal(7);
+    let mut normal = NormalNoise(7);
     (0..40).map(|i| (0.1 * f64::from(i)).exp()).map(|c| [c, c.powf(slope) * (1.0 + level * normal.draw())]).collect()
 }
 
@@ -94,7 +77,7 @@ fn the_noise_found_is_the_noise_put_in() {
 #[test]
 fn a_curve_that_falls_is_reported_or_smoothed_until_it_rises() {
     // Nearly constant discharge up to c = 6, in noise: 3 + d ln Q/d ln c changes by more than Q.
-    let mut normal = Normal(3);
+    let mut normal = NormalNoise(3);
     let rows: Vec<_> = (0..30)
         .map(|i| (0.06 * f64::from(i)).exp())
         .map(|c| [c, c.powf(0.05) * (1.0 + 0.02 * normal.draw())])
@@ -117,7 +100,7 @@ fn a_curve_that_falls_is_reported_or_smoothed_until_it_rises() {
 #[test]
 fn a_long_noisy_table_of_coaxial_cylinders_is_recovered_in_a_narrow_gap() {
     // ζ = T: ΔΩ = (M/4π)(1 − 1/R₂²) for R₁ = 1.
-    let mut normal = Normal(11);
+    let mut normal = NormalNoise(11);
     let outer = 1.001_f64;
     let factor = (1.0 - outer.powi(-2)) / (4.0 * core::f64::consts::PI);
     let rows: Vec<_> = (0..400)

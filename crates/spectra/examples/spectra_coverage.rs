@@ -1,7 +1,7 @@
 //! How often 95 % intervals and bands of spectra hold the truth, in noisy tables of known spectra.
 //!
 //! ```sh
-//! cargo run --release -p piola-spectra --example coverage -- 200
+//! cargo run --release -p piola-spectra --example spectra_coverage -- 200
 //! ```
 
 #![expect(clippy::print_stdout, reason = "the tables are what the program is for")]
