@@ -6,6 +6,19 @@
 //! derivatives of the elementary functions are therefore stated in one place, and second derivatives are
 //! closures that types of first order never call.
 
+/// [f(0), …, f(N − 1)]. A plain loop is a tenth of the code that `core::array::from_fn` and `map` become, and numbers with derivatives
+/// are compiled for many scalars and sizes.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn entries<T: crate::Real, const N: usize>(f: impl Fn(usize) -> T) -> [T; N] {
+    let mut entries = [T::zero(); N];
+    let mut i = 0;
+    while i < N {
+        entries[i] = f(i);
+        i += 1;
+    }
+    entries
+}
+
 /// 1 − x², without cancellation in its value near |x| = 1 or in its derivative −2x near x = 0.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn one_minus_square<T: crate::Real>(x: T) -> T {

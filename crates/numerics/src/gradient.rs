@@ -3,7 +3,7 @@
 //! Functions of more than N variables are differentiated in chunks of N directions: see
 //! [`derivatives`](crate::derivatives).
 
-use crate::Real;
+use crate::{Real, differentiable::entries};
 
 /// A value and N partial derivatives, exact to rounding.
 ///
@@ -48,24 +48,21 @@ impl<T: Real, const N: usize> Gradient<T, N> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn chain(self, f: T, f1: impl FnOnce() -> T, _f2: impl FnOnce() -> T) -> Self {
         let f1 = f1();
-        Self { value: f, partials: self.partials.map(|x| x * f1) }
+        Self { value: f, partials: entries(|i| self.partials[i] * f1) }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn linear(self, other: Self, f: impl Fn(T, T) -> T) -> Self {
-        Self {
-            value: f(self.value, other.value),
-            partials: core::array::from_fn(|i| f(self.partials[i], other.partials[i])),
-        }
+        Self { value: f(self.value, other.value), partials: entries(|i| f(self.partials[i], other.partials[i])) }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn each(self, f: impl Fn(T) -> T) -> Self {
-        Self { value: f(self.value), partials: self.partials.map(f) }
+        Self { value: f(self.value), partials: entries(|i| f(self.partials[i])) }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn product(self, o: Self) -> Self {
         Self {
             value: self.value * o.value,
-            partials: core::array::from_fn(|i| self.partials[i] * o.value + self.value * o.partials[i]),
+            partials: entries(|i| self.partials[i] * o.value + self.value * o.partials[i]),
         }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -73,7 +70,7 @@ impl<T: Real, const N: usize> Gradient<T, N> {
         // The value is divided and not multiplied by r: it is that of the plain scalar, to the last bit.
         let r = T::one() / o.value;
         let value = self.value / o.value;
-        Self { value, partials: core::array::from_fn(|i| (self.partials[i] - value * o.partials[i]) * r) }
+        Self { value, partials: entries(|i| (self.partials[i] - value * o.partials[i]) * r) }
     }
 }
 

@@ -9,7 +9,7 @@
 //!
 //! so that a = (∂x/∂q) q̈ + `second_rate`. With N = 0 it is the Taylor polynomial of order two along a curve.
 
-use crate::Real;
+use crate::{Real, differentiable::entries};
 
 /// A value with N partial derivatives and two derivatives along a motion, exact to rounding.
 ///
@@ -67,7 +67,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
         let (f1, f2) = (f1(), f2());
         Self {
             value: f,
-            partials: self.partials.map(|x| x * f1),
+            partials: entries(|i| self.partials[i] * f1),
             rate: self.rate * f1,
             second_rate: self.second_rate * f1 + self.rate * self.rate * f2,
         }
@@ -76,7 +76,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
     fn linear(self, other: Self, f: impl Fn(T, T) -> T) -> Self {
         Self {
             value: f(self.value, other.value),
-            partials: core::array::from_fn(|i| f(self.partials[i], other.partials[i])),
+            partials: entries(|i| f(self.partials[i], other.partials[i])),
             rate: f(self.rate, other.rate),
             second_rate: f(self.second_rate, other.second_rate),
         }
@@ -85,7 +85,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
     fn each(self, f: impl Fn(T) -> T) -> Self {
         Self {
             value: f(self.value),
-            partials: core::array::from_fn(|i| f(self.partials[i])),
+            partials: entries(|i| f(self.partials[i])),
             rate: f(self.rate),
             second_rate: f(self.second_rate),
         }
@@ -95,7 +95,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
         let cross = self.rate * o.rate;
         Self {
             value: self.value * o.value,
-            partials: core::array::from_fn(|i| self.partials[i] * o.value + self.value * o.partials[i]),
+            partials: entries(|i| self.partials[i] * o.value + self.value * o.partials[i]),
             rate: self.rate * o.value + self.value * o.rate,
             second_rate: self.second_rate * o.value + self.value * o.second_rate + (cross + cross),
         }
@@ -109,7 +109,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
         let cross = rate * o.rate;
         Self {
             value,
-            partials: core::array::from_fn(|i| (self.partials[i] - value * o.partials[i]) * r),
+            partials: entries(|i| (self.partials[i] - value * o.partials[i]) * r),
             rate,
             second_rate: (self.second_rate - value * o.second_rate - (cross + cross)) * r,
         }

@@ -13,6 +13,18 @@ use core::ops::Range;
 use proptest::collection;
 use proptest::prelude::*;
 
+/// How many random cases to try of `all`: a tenth, for every day, and all where the environment sets `PIOLA_ALL_CASES`.
+///
+/// ```
+/// use piola_testkit::strategies::random_cases;
+/// use proptest::prelude::*;
+/// proptest!(ProptestConfig::with_cases(random_cases(1_000)), |(x in -1.0..1.0)| prop_assert!(x.abs() <= 1.0));
+/// ```
+#[must_use]
+pub fn random_cases(all: u32) -> u32 {
+    if std::env::var_os("PIOLA_ALL_CASES").is_some() { all } else { all.div_ceil(10) }
+}
+
 /// Numbers of a finite range.
 ///
 /// # Panics

@@ -9,6 +9,7 @@ use piola_characteristics::{
 };
 use piola_integrators::{Field, Tolerance};
 use piola_numerics::Real;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, difference_quotient};
 use proptest::prelude::*;
 
@@ -62,7 +63,7 @@ impl InitialManifold for Touched {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(1_000)))]
 
     /// W(A.20), W(A.25): Φ stays zero and ξ = ∇u, with ∇u from the ray map.
     #[test]

@@ -10,6 +10,7 @@ use piola_continuum::{
     CauchyStress, ContinuumError, Deformation, DeformationGradient, ReferenceNormal, Symmetric, UnitNormal,
 };
 use piola_numerics::{Dual, Kernel, Lanes, Level, Real, dispatch_at};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -98,7 +99,7 @@ fn together<const N: usize>(value: impl Fn(usize) -> f64) -> Lanes<f64, N> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(1_000)))]
 
     #[test]
     fn lanes_equal_single_points(

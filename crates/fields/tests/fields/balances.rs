@@ -8,6 +8,7 @@ use piola_fields::{
     Spherical, Uniform, equilibrium_residual, symmetry_residual,
 };
 use piola_numerics::Real;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -34,7 +35,7 @@ fn determinant(f: &Matrix3<f64>) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn momentum_of_a_manufactured_motion_leaves_nothing(
@@ -228,7 +229,7 @@ fn gas() -> impl Strategy<Value = Gas> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn expanding_gas_balances_mass_momentum_and_energy(
@@ -373,7 +374,7 @@ impl Field for Flux {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn exact_solutions_leave_nothing(

@@ -5,6 +5,7 @@ use piola_continuum::Symmetric;
 use piola_fields::compatibility::{Curvature, gradient_residual, incompatibility};
 use piola_fields::{Field, Material, Motion};
 use piola_numerics::{Gradient, Real};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -76,7 +77,7 @@ impl Field for SpaceForm {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn gradient_metric_and_strain_of_a_motion_leave_nothing(motion in wave(), x in point(), t in -2.0..2.0_f64) {

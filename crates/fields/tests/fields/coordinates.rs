@@ -7,6 +7,7 @@ use piola_fields::{
 };
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_of};
 use piola_numerics::{Gradient, Lanes, Real};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -233,7 +234,7 @@ fn angle() -> impl Strategy<Value = f64> + Clone {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn cylindrical_operators_equal_cartesian_ones(

@@ -5,6 +5,7 @@ use piola_continuum::Symmetric;
 use piola_fields::FieldsError;
 use piola_fields::{Eulerian, Field, FieldValue, Inversion, Material, Motion, Spatial, Uniform, ValueOf};
 use piola_numerics::{Dual, Gradient, Lanes, Real};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -85,7 +86,7 @@ fn steps_that_leave_the_body_are_halved_until_they_stay_in_it() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn particle_found_at_its_place_equals_itself_within_the_certificate(

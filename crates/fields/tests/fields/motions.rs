@@ -3,13 +3,14 @@
 use nalgebra::{Matrix3, Vector3};
 use piola_fields::{AffineHistory, Homogeneous, Motion, Rigid, RigidHistory};
 use piola_numerics::{Lanes, Real};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
 use super::fixtures::{point, wave};
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn exact_derivatives_of_a_motion_equal_those_by_hand(motion in wave(), x in point(), t in -2.0..2.0_f64) {
@@ -109,7 +110,7 @@ impl RigidHistory for Tumble {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn rigid_motion_has_orthogonal_gradient_and_skew_velocity_gradient(

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use piola_fields::FieldsError;
 use piola_fields::{Interpolation, Inversion, Motion, MotionSamples, SampledMotion, SampledTrajectories};
 use piola_numerics::{Lanes, Real};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, assert_order};
 use proptest::prelude::*;
 
@@ -51,7 +52,7 @@ impl Motion for Polynomial {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn splines_through_a_polynomial_equal_it(x in point(), t in -1.0..1.0_f64, which in 0..3_usize) {

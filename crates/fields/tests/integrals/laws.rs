@@ -9,6 +9,7 @@ use piola_fields::integral::{
 };
 use piola_fields::{Body, Field, Material, Motion, Spatial, Uniform};
 use piola_numerics::{Dual, Lanes, Real};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close_at_scale, difference_quotient};
 use proptest::prelude::*;
 
@@ -59,7 +60,7 @@ fn with_rules<R>(degree: usize, f: impl FnOnce(&Quadrature) -> R) -> R {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn rate_of_integral_over_moving_box_equals_local_rate_and_transport(

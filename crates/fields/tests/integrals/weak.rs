@@ -8,6 +8,7 @@ use piola_fields::integral::{
 use piola_fields::{Field, Motion};
 use piola_numerics::linear::matrix3::from_rows;
 use piola_numerics::{Dual, Real};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
@@ -59,7 +60,7 @@ fn check_patch<const N: usize>(body: &TetrahedralElements<N>, gradient: &Matrix3
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn forces_of_uniform_stress_equal_tractions_of_the_patch(entries in strategies::vector(9, -0.2..0.2)) {

@@ -6,6 +6,7 @@ use piola_fluids::{
     ReinerRivlin, Relaxation, SecondOrder, Sisko, Slipping, UpperConvectedMaxwell, ViscometricFluid,
 };
 use piola_numerics::Dual;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -56,7 +57,7 @@ fn is_regular(fluid: &AnyFluid, k: f64) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn functions_of_fluids_of_any_exponent_are_finite_and_odd_or_even_at_every_rate(

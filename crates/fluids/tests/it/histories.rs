@@ -8,6 +8,7 @@ use piola_fluids::{
     reference_indifference,
 };
 use piola_numerics::Real;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
@@ -99,7 +100,7 @@ fn unimodular(entries: &[f64]) -> Matrix3<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(2_000)))]
 
     #[test]
     fn fluids_of_the_present_rate_are_simple_fluids(

@@ -6,6 +6,7 @@ use piola_fluids::{
     CarreauYasuda, GeneralisedNewtonian, LinearViscous, ViscometricFluid, ViscousStress, navier_stokes_residual,
 };
 use piola_numerics::Real;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
@@ -47,7 +48,7 @@ impl Field for PerMass {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn navier_stokes_residual_equals_the_balance_of_momentum_of_the_viscous_stress(

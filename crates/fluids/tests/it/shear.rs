@@ -5,6 +5,7 @@ use piola_fluids::{
     Papanastasiou, Parameters, PowerLaw, Sisko, ViscometricFluid,
 };
 use piola_numerics::{Dual, Lanes, Real};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -187,7 +188,7 @@ fn derivatives_by_parameters_equal_difference_quotients() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn shear_stress_is_odd_and_viscosity_even(k in rates()) {

@@ -9,6 +9,7 @@ use piola_fluids::{
     Modes, OldroydB, Slipping, SteadyStress, StressRate, UpperConvectedMaxwell, ViscometricFluid,
 };
 use piola_numerics::{Dual, Lanes, Real};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
@@ -297,7 +298,7 @@ fn isochoric(entries: &[f64]) -> VelocityGradient {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(1_000)))]
 
     #[test]
     fn steady_stresses_satisfy_the_equation_for_all_observers_with_exact_derivatives(

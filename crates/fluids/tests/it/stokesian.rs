@@ -9,6 +9,7 @@ use piola_fluids::{
 use piola_numerics::Real;
 use piola_tensor::spectral::{EigenvalueCase, representation};
 use piola_testkit::golden::{load, number, text};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
@@ -116,7 +117,7 @@ fn compressible_newtonian_and_eulerian_fluids_are_special_cases_and_rest_is_a_pr
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(5_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(5_000)))]
 
     #[test]
     fn stress_of_density_and_rate_is_seen_turned_and_has_the_coefficients_of_its_representation(

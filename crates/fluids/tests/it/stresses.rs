@@ -9,6 +9,7 @@ use piola_fluids::{
 };
 use piola_numerics::{Dual, Lanes, Real};
 use piola_testkit::golden::{load, matrix, number, text};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 use serde_json::Value;
@@ -181,7 +182,7 @@ fn seen_from<F: ViscousFluid>(fluid: &F, l: &VelocityGradient, rotation: &Matrix
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn stress_seen_from_a_turning_observer_is_the_turned_stress(

@@ -9,6 +9,7 @@ use piola_hamiltonian::{
 };
 use piola_lagrangian::ChangeOfCoordinates;
 use piola_numerics::Real;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -58,7 +59,7 @@ impl ChangeOfCoordinates<2> for Bent {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(1_000)))]
 
     #[test]
     fn the_lie_derivative_of_the_one_form_is_that_of_cartan(

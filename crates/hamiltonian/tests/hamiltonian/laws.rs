@@ -9,6 +9,7 @@ use piola_hamiltonian::{
 use piola_integrators::{DormandPrince853, State, Tolerance};
 use piola_lagrangian::{ChangeOfCoordinates, Lagrangian, Workspace};
 use piola_numerics::{Gradient, Lanes, Real};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close_at_scale, difference_quotient};
 use proptest::prelude::*;
 
@@ -178,7 +179,7 @@ impl ChangeOfCoordinates<2> for Sheared {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(2_000)))]
 
     #[test]
     fn the_lie_derivative_of_a_function_goes_with_its_differential(

@@ -5,6 +5,7 @@ use piola_hamiltonian::{
     TransformedHamiltonian, canonical_test,
 };
 use piola_numerics::Real;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -36,7 +37,7 @@ impl PhaseFunction for Oscillators {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(1_000)))]
 
     #[test]
     fn polar_and_spherical_coordinates_lead_back_and_are_canonical(

@@ -5,6 +5,7 @@ use piola_continuum::{Deformation, DeformationGradient};
 use piola_numerics::Gradient;
 use piola_solids::{Hyperelastic, derived};
 use piola_tensor::{FourthOrder, PairSymmetric};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -13,7 +14,7 @@ use super::laws::{all, gradient, largest};
 const DERIVED: Tol = Tol::stated(1e-13, "closed forms against exact derivatives, relative to the moduli");
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn stresses_of_every_law_equal_derivatives_of_its_energy(rows in gradient()) {
@@ -38,7 +39,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(2_000)))]
 
     /// Of a stress that is the exact derivative of the energy, as the other test shows.
     #[test]

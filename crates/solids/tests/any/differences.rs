@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 use piola_continuum::{Deformation, DeformationGradient};
 use piola_numerics::Real;
 use piola_solids::{AnySolid, Hyperelastic};
-use piola_testkit::strategies::vector;
+use piola_testkit::strategies::{random_cases, vector};
 use piola_testkit::{DoubleDouble, Tol, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -35,7 +35,7 @@ fn along(law: &AnySolid, f: &DeformationGradient, direction: &Matrix3<f64>) -> [
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(1_000)))]
 
     #[test]
     fn tangents_of_every_law_equal_differences_of_the_stress(rows in gradient(), entries in vector(9, -1.0..1.0)) {

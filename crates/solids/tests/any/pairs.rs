@@ -10,6 +10,7 @@ use piola_solids::isochoric::{Gent, Isochoric};
 use piola_solids::volumetric::Quadratic;
 use piola_solids::{Compressible, Hyperelastic};
 use piola_tensor::PairSymmetric;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -18,7 +19,7 @@ use super::laws::{all, gradient, largest};
 const TOGETHER: Tol = Tol::stated(1e-13, "two orders of the same sums, relative to the moduli");
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(1_000)))]
 
     #[test]
     fn stress_and_tangent_together_equal_those_apart(rows in gradient()) {

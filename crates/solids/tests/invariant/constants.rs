@@ -4,6 +4,7 @@ use piola_continuum::strain::LinearStrain;
 use piola_solids::SolidsError;
 use piola_solids::{ElasticConstants, LinearElastic, MixedLinearElastic, PoissonSign};
 use piola_tensor::voigt::{BroNielsen, Piola};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close};
 use proptest::prelude::*;
 
@@ -35,7 +36,7 @@ fn pairs(of: &ElasticConstants) -> Result<Vec<(&'static str, ElasticConstants)>>
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn constants_of_every_pair_equal_those_it_was_made_of(

@@ -8,6 +8,7 @@ use piola_solids::{
     SaintVenantKirchhoff,
 };
 use piola_tensor::spectral::{EigenvalueCase, representation};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
@@ -15,7 +16,7 @@ const FORMS: [ResponseForm; 4] =
     [ResponseForm::Stretch, ResponseForm::Square, ResponseForm::Inverse, ResponseForm::Mixed];
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn stress_of_a_law_equals_that_of_every_form(entries in strategies::vector(9, -0.35..0.35)) {
@@ -63,7 +64,7 @@ impl IsotropicSolid for Elastic {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(5_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(5_000)))]
 
     #[test]
     fn stress_of_an_isotropic_solid_is_that_of_its_principal_stretches_and_has_its_coefficients(

@@ -5,6 +5,7 @@ use piola_continuum::{Deformation, DisplacementGradient, Symmetric};
 use piola_numerics::Dual;
 use piola_solids::Hyperelastic;
 use piola_solids::SolidsError;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
@@ -77,7 +78,7 @@ fn deformation(entries: &[f64]) -> Option<DisplacementGradient> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(2_000)))]
 
     #[test]
     fn closed_forms_equal_exact_derivatives(entries in strategies::vector(9, -0.35..0.35)) {
@@ -90,7 +91,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn energy_is_not_negative(entries in strategies::vector(9, -0.35..0.35), scale in -16.0..0.0) {

@@ -3,6 +3,7 @@
 use piola_continuum::{Deformation, DisplacementGradient};
 use piola_numerics::Real;
 use piola_solids::Hyperelastic;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{DoubleDouble, strategies};
 use proptest::prelude::*;
 
@@ -41,7 +42,7 @@ impl Visitor for Errors {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(1_000)))]
 
     #[test]
     fn stress_near_the_reference_equals_that_in_twice_the_precision(

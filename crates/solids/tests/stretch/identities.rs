@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 use piola_continuum::{Deformation, DeformationGradient};
 use piola_solids::Hyperelastic;
 use piola_tensor::PairSymmetric;
-use piola_testkit::strategies::{rotation, rotation_matrix};
+use piola_testkit::strategies::{random_cases, rotation, rotation_matrix};
 use piola_testkit::{Tol, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -88,7 +88,7 @@ impl Visitor for TurnsOfTheReference {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn stresses_and_tangents_equal_each_others_transformations(rows in gradient()) {

@@ -3,7 +3,7 @@
 use piola_continuum::DisplacementGradient;
 use piola_numerics::Real;
 use piola_solids::{Hyperelastic, IncompressibleOgden, OgdenTerm, Pressurised};
-use piola_testkit::strategies::vector;
+use piola_testkit::strategies::{random_cases, vector};
 use piola_testkit::{DoubleDouble, Tol, assert_close};
 use proptest::prelude::*;
 
@@ -37,7 +37,7 @@ impl Visitor for RoundingIsSmall {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(2_000)))]
 
     #[test]
     fn stresses_near_the_reference_equal_those_of_twice_the_precision(

@@ -11,13 +11,14 @@ use piola_tensor::voigt::{
     StressVector,
 };
 use piola_tensor::{FourthOrder, MajorSymmetric, MinorSymmetric, PairSymmetric, Skew, principal_invariants};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
 use super::cases::{all, by_eight_loops, deformation, flat, major, minor, nine, rotation, rows, skew, symmetric};
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn symmetric_and_skew_parts_add_up_to_the_tensor(a in rows()) {

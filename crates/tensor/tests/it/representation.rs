@@ -2,6 +2,7 @@
 
 use piola_tensor::spectral::{EigenvalueCase, Exponential, representation, tensor_function};
 use piola_tensor::{Symmetric, TensorError};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
@@ -16,7 +17,7 @@ fn turned(values: [f64; 3], quaternion: [f64; 4]) -> Symmetric {
 const GAP: f64 = 1e-9;
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn polynomials_of_cayley_and_hamilton_are_the_coefficients_of_a_cube_and_an_inverse(

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use piola_fluids::{Newtonian, PowerLaw};
 use piola_numerics::Real;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{DoubleDouble, Tol};
 use piola_viscometry::{Annulus, Estimate};
 use proptest::prelude::*;
@@ -82,7 +83,7 @@ fn quadratic(inner: f64, gradient: f64, places: [f64; 2]) -> Result<(), Box<dyn 
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(2_000)))]
 
     #[test]
     fn answers_of_an_annulus_equal_closed_forms_within_their_bounds(

@@ -2,6 +2,7 @@
 
 use piola_fluids::{Newtonian, PowerLaw, ViscometricFluid};
 use piola_numerics::Real;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close};
 use piola_viscometry::recover::{
     self, ChannelGeometry, CouetteGeometry, FlowTable, MeasuredCurve, PipeGeometry, PlatesGeometry, functions,
@@ -59,7 +60,7 @@ fn stresses() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn coaxial_cylinders_recover_power_laws_without_a_term(

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 use piola_testkit::spectral::{Rows, with_stretches};
-use piola_testkit::strategies::{rotation, rotation_matrix, vector};
+use piola_testkit::strategies::{random_cases, rotation, rotation_matrix, vector};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -13,7 +13,7 @@ fn rows(m: &Matrix3<f64>) -> Rows<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn polar_factors_equal_those_the_gradient_was_made_of(r in rotation(), q in rotation(), logs in vector(3, -1.15..1.15)) {

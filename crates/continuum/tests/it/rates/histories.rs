@@ -7,6 +7,7 @@ use piola_continuum::rates::{
     viscometric_motion,
 };
 use piola_numerics::Real;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
@@ -38,7 +39,7 @@ fn unimodular(entries: &[f64]) -> Matrix3<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(1_000)))]
 
     #[test]
     fn turned_exponential_motions_have_constant_stretch_histories_and_others_none(

@@ -7,6 +7,7 @@ use piola_continuum::rates::{
 use piola_continuum::{DeformationGradient, Symmetric};
 use piola_numerics::linear::matrix3::{from_rows, rows_of};
 use piola_numerics::{Dual, Kernel, Lanes, Real, dispatch};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close_at_scale, difference_quotient};
 use proptest::prelude::*;
 
@@ -48,7 +49,7 @@ fn close(what: &str, actual: &[f64], expected: &[f64], tol: Tol) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(1_000)))]
 
     #[test]
     fn rates_in_lanes_equal_rates_one_by_one(a in path(), b in path(), c in path(), d in path()) {

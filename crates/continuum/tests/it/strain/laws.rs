@@ -7,6 +7,7 @@ use piola_continuum::strain::{
 };
 use piola_continuum::{Deformation, DeformationGradient, DisplacementGradient, HomogeneousDeformation, Symmetric};
 use piola_numerics::Real;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{DoubleDouble, Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
@@ -56,7 +57,7 @@ fn assert_same(what: &str, actual: &[f64], expected: &[f64]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn material_strains_of_a_turned_body_equal_material_strains(f in deformation(), q in rotation()) {

@@ -3,6 +3,7 @@
 use piola_continuum::strain::{AlmansiStrain, GreenStrain, SethHill, invariants};
 use piola_continuum::{ContinuumError, Deformation, DeformationGradient, DisplacementGradient, Symmetric};
 use piola_numerics::{Lanes, Real};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -50,7 +51,7 @@ fn lanes(fs: &[[[f64; 3]; 3]; 4]) -> [[Lanes<f64, 4>; 3]; 3] {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(1_000)))]
 
     #[test]
     fn lanes_equal_scalars(fs in prop::array::uniform4(deformation()), hs in prop::array::uniform4(displacement())) {

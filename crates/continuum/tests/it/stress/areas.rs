@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use piola_continuum::{DeformationGradient, ReferenceNormal};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -32,7 +33,7 @@ fn half_moment(motion: &Motion, from: Vector3<f64>, to: Vector3<f64>) -> Vector3
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn area_of_a_curved_image_by_its_edge_equals_nansons_over_the_patch(

@@ -13,6 +13,7 @@ use piola_continuum::{
     CauchyStress, Deformation, DeformationGradient, DisplacementGradient, FirstPiola, ReferenceNormal, SecondPiola,
     UnitNormal,
 };
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, assert_order};
 use proptest::prelude::*;
 
@@ -72,7 +73,7 @@ const NAMES: [&str; 6] = ["Cauchy", "Kirchhoff", "first Piola", "second Piola", 
 const CANCELLED: Tol = Tol::ulps_because(400.0, "a traction whose terms cancel, beside stresses of up to 100 Pa");
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn conversions_between_all_measures_commute(t in stress(), f in deformation()) {

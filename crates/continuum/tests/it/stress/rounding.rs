@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use piola_continuum::{CauchyStress, Deformation, DeformationGradient, SecondPiola, Symmetric};
 use piola_numerics::Real;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{DoubleDouble, Tol, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -33,7 +34,7 @@ fn largest_of_inverse(f: &DeformationGradient) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn conversions_under_extreme_stretches_equal_those_in_doubled_precision(f in extreme_deformation(), t in stress()) {

@@ -2,6 +2,7 @@
 
 use piola_continuum::deformation::transport;
 use piola_numerics::linear::matrix3::from_rows;
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -10,7 +11,7 @@ use super::cases::{deformation, nine, rows, skew, symmetric};
 const ROUND_TRIP: Tol = Tol::ulps_because(2048.0, "F and its inverse twice each, stretches from 1/2 to 2");
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn push_forwards_and_pull_backs_undo_one_another(d in deformation(), a in symmetric(), w in skew(), g in rows()) {

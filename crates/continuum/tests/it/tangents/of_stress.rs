@@ -6,6 +6,7 @@ use piola_continuum::stress::tangents::ObjectiveRate::{
 use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent};
 use piola_continuum::{CauchyStress, Deformation, DeformationGradient};
 use piola_tensor::{Major, Minor, PairSymmetric};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -31,7 +32,7 @@ const FIRST_PIOLA: Tol = Tol::ulps_because(256.0, "two factors F, stretches from
 const SPUN: Tol = Tol::ulps_because(1024.0, "four factors F and the spin of the stretches, of 1/2 to 2");
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn first_piola_tangent_of_the_material_one_equals_second_derivatives_in_f(d in deformation()) {

@@ -12,6 +12,7 @@ use piola_numerics::linear::matrix3::from_rows;
 use piola_numerics::{Dual, Real};
 use piola_tensor::internal::rows::{Rows, product, product_transposed, sum, transpose};
 use piola_tensor::{PairSymmetric, Skew};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -53,7 +54,7 @@ fn both<T: Real>(a: Rows<T>) -> Symmetric<T> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn objective_rates_of_the_stress_equal_the_tangents_times_the_stretching(d in deformation(), rate in rows()) {

@@ -6,7 +6,7 @@ use piola_tensor::internal::rows::apply;
 use piola_tensor::internal::spectral::{gram, unturned_frame};
 use piola_tensor::spectral::{Exponential, Logarithm, Power, SquareRoot, decompose, tensor_function};
 use piola_testkit::spectral::{Rows, with_stretches};
-use piola_testkit::strategies::{finite, rotation, rotation_matrix, vector};
+use piola_testkit::strategies::{finite, random_cases, rotation, rotation_matrix, vector};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -21,7 +21,7 @@ fn rows(m: &Matrix3<f64>) -> Rows<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn tensor_equals_the_sum_of_its_eigenvalues_times_dyads(list in vector(6, -1.0..1.0), exponent in finite(-100.0..100.0)) {

@@ -9,7 +9,7 @@ use piola_continuum::rates::{
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{determinant, from_rows, rows_of};
 use piola_tensor::Skew;
-use piola_testkit::strategies::{rotation, rotation_matrix, vector};
+use piola_testkit::strategies::{random_cases, rotation, rotation_matrix, vector};
 use piola_testkit::{DoubleDouble, Tol};
 use proptest::prelude::*;
 
@@ -24,7 +24,7 @@ fn exp(a: &Matrix3<f64>) -> Matrix3<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn exponential_times_that_of_the_opposite_equals_identity(a in matrices(2.0)) {

@@ -9,6 +9,7 @@ use piola_continuum::{Deformation, DeformationGradient, DisplacementGradient};
 use piola_numerics::linear::matrix3::from_rows;
 use piola_numerics::{Dual, Jet, Real};
 use piola_testkit::Tol;
+use piola_testkit::strategies::random_cases;
 use proptest::prelude::*;
 
 use super::super::cases::{Path, assert_same, lift, path};
@@ -35,7 +36,7 @@ fn derivatives(path: &Path) -> ([Matrix3<f64>; 3], [Matrix3<f64>; 3]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn relative_deformation_times_present_equals_past(path in path(), lapse in -0.05..0.05_f64) {

@@ -13,6 +13,7 @@ use piola_continuum::{
 use piola_numerics::linear::matrix3::{determinant, from_rows, inverse, rows_of};
 use piola_numerics::{Dual, Real};
 use piola_testkit::Tol;
+use piola_testkit::strategies::random_cases;
 use proptest::prelude::*;
 
 use super::super::cases::{Path, assert_same, path};
@@ -66,7 +67,7 @@ fn inverse_of<T: Real>(a: &Matrix3<T>) -> Matrix3<T> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn rates_seen_by_a_turning_observer_equal_turned_rates(path in path()) {

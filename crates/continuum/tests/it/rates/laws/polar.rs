@@ -9,7 +9,7 @@ use piola_continuum::rates::{
 use piola_continuum::{Deformation, DeformationGradient, DisplacementGradient};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
-use piola_testkit::strategies::vector;
+use piola_testkit::strategies::{random_cases, vector};
 use piola_testkit::{DoubleDouble, Tol};
 use proptest::prelude::*;
 
@@ -20,7 +20,7 @@ fn derivative(a: &Matrix3<Dual64>) -> Matrix3<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(random_cases(10_000)))]
 
     #[test]
     fn velocity_gradient_times_gradient_equals_its_rate(path in path()) {
