@@ -60,8 +60,8 @@ fn answers_table(text: &mut String, (scene, run): (&Scene, &Run), answers: &Answ
     text.push('\n');
     match answers {
         Answers::Phase(found) => {
-            if scene.asks_for_section() {
-                let _ = writeln!(text, "{:<24}{:>12}", "crossings of the section", found.crossings.len());
+            if let Some(crossings) = &found.crossings {
+                let _ = writeln!(text, "{:<24}{:>12}", "crossings of the section", crossings.len());
             }
             if let Some(exponent) = found.exponent {
                 let _ = writeln!(text, "{:<24}{exponent:>12.4e} 1/s", "largest exponent");

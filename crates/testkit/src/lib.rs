@@ -7,6 +7,7 @@
 //! | show the order of a method | [`convergence_order`], [`assert_order`] |
 //! | scale a tolerance by how ill-conditioned the problem is | [`condition_number`], [`Tol::times`] |
 //! | check a derivative against differences of values | [`difference_quotient`] |
+//! | read the scenes and pages of the repository | [`repository`] |
 //! | draw random inputs for an identity | [`strategies`] |
 //! | tell rounding from the rest | [`DoubleDouble`] |
 //! | judge a polar decomposition or a tensor logarithm | [`spectral`] |
@@ -21,6 +22,7 @@ mod differences;
 mod double_double;
 pub mod golden;
 mod orders;
+pub mod repository;
 pub mod smooth_cube;
 pub mod spectral;
 pub mod strategies;
