@@ -33,7 +33,7 @@ pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
     line("momentum", run.drifts.momentum);
     line("angular momentum", run.drifts.angular_momentum);
     if let Some(answers) = &run.answers {
-        answers_table(&mut text, (scene, run), answers);
+        answers_table(&mut text, run, answers);
     }
     for (t, name) in run.history.singular_positions.iter().take(SHOWN) {
         let _ =
@@ -56,7 +56,7 @@ pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
 }
 
 /// Answers to the questions of a scene.
-fn answers_table(text: &mut String, (scene, run): (&Scene, &Run), answers: &Answers) {
+fn answers_table(text: &mut String, run: &Run, answers: &Answers) {
     text.push('\n');
     match answers {
         Answers::Phase(found) => {
