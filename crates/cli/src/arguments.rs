@@ -121,9 +121,9 @@ pub(crate) struct RunArguments {
     /// Go on from the last checkpoint of a run of this scene that was killed or interrupted, if there is one in the folder.
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Time between two checkpoints of a motion, in seconds.
-    #[arg(long, value_name = "SECONDS", default_value_t = 30.0, value_parser = seconds)]
-    pub(crate) checkpoint: f64,
+    /// Time between two checkpoints of a motion, in seconds; 30 when absent.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) checkpoint: Option<f64>,
 }
 
 /// A pause that the clock knows.

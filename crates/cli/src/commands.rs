@@ -28,6 +28,9 @@ pub(crate) fn run(arguments: &RunArguments) -> Exit {
     }
 }
 
+/// Seconds between two checkpoints, unless others are asked for.
+const PAUSE: f64 = 30.0;
+
 /// The folder of the results: the argument's, or the scene's.
 fn results(arguments: &RunArguments, asked: &Path) -> Result<Folder, SceneError> {
     Ok(Folder::prepare(arguments.out.as_deref().unwrap_or(asked))?)
@@ -36,6 +39,9 @@ fn results(arguments: &RunArguments, asked: &Path) -> Result<Folder, SceneError>
 fn run_study(study: &Study, arguments: &RunArguments) -> Exit {
     if arguments.resume {
         return refuse("a study leaves no checkpoints: run it without --resume", arguments.scene.json);
+    }
+    if arguments.checkpoint.is_some() {
+        return refuse("a study leaves no checkpoints: run it without --checkpoint", arguments.scene.json);
     }
     let folder = match results(arguments, &study.output.folder) {
         Ok(folder) => folder,
@@ -77,7 +83,15 @@ fn run_motion(scene: &Scene, arguments: &RunArguments) -> Exit {
         }
         Ok(_) => {}
     }
-    let mut checkpoints = Checkpoints::new(&folder, Duration::from_secs_f64(arguments.checkpoint));
+    if arguments.checkpoint.is_some() && !run::has_checkpoints(scene) {
+        note("a mechanism with constraints leaves no checkpoints: --checkpoint has no effect");
+    }
+    let pause = arguments.checkpoint.unwrap_or(PAUSE);
+    let mut checkpoints = Checkpoints::new(&folder, Duration::from_secs_f64(pause));
+    if !arguments.resume {
+        // A later --resume must not go on from a run before this one.
+        checkpoints.remove();
+    }
     let from = match arguments.resume.then(|| begin_again(scene, &plan, &checkpoints)).transpose() {
         Ok(from) => from.flatten(),
         Err(error) => return invalid(&error, arguments.scene.json),

@@ -33,7 +33,7 @@ pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
     line("momentum", run.drifts.momentum);
     line("angular momentum", run.drifts.angular_momentum);
     if let Some(answers) = &run.answers {
-        answers_table(&mut text, (scene, run), answers);
+        answers_table(&mut text, run, answers);
     }
     for (t, name) in run.history.singular_positions.iter().take(SHOWN) {
         let _ =
@@ -56,12 +56,12 @@ pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
 }
 
 /// Answers to the questions of a scene.
-fn answers_table(text: &mut String, (scene, run): (&Scene, &Run), answers: &Answers) {
+fn answers_table(text: &mut String, run: &Run, answers: &Answers) {
     text.push('\n');
     match answers {
         Answers::Phase(found) => {
-            if scene.asks_for_section() {
-                let _ = writeln!(text, "{:<24}{:>12}", "crossings of the section", found.crossings.len());
+            if let Some(crossings) = &found.crossings {
+                let _ = writeln!(text, "{:<24}{:>12}", "crossings of the section", crossings.len());
             }
             if let Some(exponent) = found.exponent {
                 let _ = writeln!(text, "{:<24}{exponent:>12.4e} 1/s", "largest exponent");

@@ -1,7 +1,8 @@
 //! Ten scenes as the planner runs them and as one general method runs all: time, evaluations of the forces, agreement.
 //!
 //! The general method is Dormand's and Prince's adaptive pair, which takes every system. Its tolerance is that of the planned method;
-//! where that has none, the least one, 4.5e-16. The two take turns in one process, and the least time of several runs of each counts.
+//! where that has none, the least one, 4.5e-16. The accuracy of the two is not matched: see the columns of the energy drift and of the
+//! difference. The two take turns in one process, and the least time of seven runs of each counts.
 //!
 //! ```sh
 //! taskset -c 0 cargo run --release -p piola-scene --example skip
@@ -211,7 +212,7 @@ fn general(planned: &Plan) -> String {
 
 const OUTPUT: &str = "\n[output]\nsamples = 201\n";
 
-/// Runs of each, of which the fastest counts.
+/// Runs of each: the least time counts.
 const ROUNDS: usize = 7;
 
 const HEAD: &str = "\

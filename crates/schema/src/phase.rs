@@ -45,8 +45,9 @@ table! {
 }
 
 table! {
-    /// A new coordinate of a `[hamiltonian]` with its momentum, as functions of the old ones. The change of variables has as many as
-    /// there are old ones. At every recorded instant it is tested whether it is canonical: dP ∧ dQ = dp ∧ dq.
+    /// A new coordinate of a `[hamiltonian]` with its momentum, as functions of the old ones. There must be one
+    /// `[[new_coordinate]]` for each `[[coordinate]]`. At every recorded instant the change of variables is tested for being canonical:
+    /// dP ∧ dQ = dp ∧ dq.
     pub(super) static NEW_COORDINATE = "new_coordinate" {
         /// Name of the new coordinate, unlike any other.
         name: Name, Required;

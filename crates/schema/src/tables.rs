@@ -96,9 +96,9 @@ table! {
         rigid_body: Kind::Tables(&RIGID_BODY), Optional;
         /// The coordinates of a `[hamiltonian]`.
         coordinate: Kind::Tables(&phase::COORDINATE), Optional;
-        /// Poisson brackets that are asked of a `[hamiltonian]`.
+        /// Poisson brackets to be evaluated along the motion of a `[hamiltonian]`.
         bracket: Kind::Tables(&phase::BRACKET), Optional;
-        /// A change of the variables of a `[hamiltonian]`, which is tested.
+        /// A change of variables of a `[hamiltonian]`, tested for being canonical.
         new_coordinate: Kind::Tables(&phase::NEW_COORDINATE), Optional;
         /// What is asked of a `[mechanism]` or a `[hamiltonian]` besides its motion.
         questions: Kind::Table(&phase::QUESTIONS), Optional;
@@ -275,7 +275,10 @@ table! {
 
 /// The methods of integration.
 pub static METHODS: [Word; 14] = [
-    word("auto", "chosen by the planner, which says why"),
+    word(
+        "auto",
+        "chosen by the planner, which says why; ellipses of `[central]` take the closed form, unless `step`, `tolerance` or `closed_form` of `[reference]` is given",
+    ),
     word(
         "composition-2",
         "symmetric symplectic composition of order 2, explicit, fixed step; forces must not depend on velocity",
@@ -302,7 +305,8 @@ table! {
         /// Step of a method of fixed step; chosen by the planner when absent.
         step: quantity(D::TIME, Positive), Optional;
         /// Relative tolerance of a step of an adaptive method, at least 4.5e-16. When absent 1e-12 for bodies that attract each other,
-        /// 1e-15 for mechanisms, 1e-14 under a Hamiltonian, 4.4e-16 about a fixed centre: the plan shows it.
+        /// 1e-15 for mechanisms, 1e-14 under a Hamiltonian, and 4.4e-16 about a fixed centre, if the closed form is not taken. The plan
+        /// shows it.
         tolerance: quantity(D::NONE, Fraction), Optional;
     }
 }

@@ -34,9 +34,12 @@ pub enum SimulationError {
         /// This version.
         expected: String,
     },
-    /// A checkpoint of a run of another system, by another method or at other instants.
-    #[error("the checkpoint is of another run: its system, its method or its instants differ")]
+    /// A checkpoint of a run of another system or with other questions, by another method or at other instants.
+    #[error("the checkpoint is of another run: its system, its questions, its method or its instants differ")]
     CheckpointOfOtherRun,
+    /// A checkpoint whose contents do not have the fingerprint that was computed when it was made.
+    #[error("the checkpoint was changed after it was made: its contents do not have the fingerprint that stands in it")]
+    CheckpointChanged,
     /// |axis| = 1 violated.
     #[error("an axis of joint {joint} has the length {length}; it must be a unit vector")]
     AxisNotUnit {

@@ -7,6 +7,7 @@
 //! | show the order of a method | [`convergence_order`], [`assert_order`] |
 //! | scale a tolerance by how ill-conditioned the problem is | [`condition_number`], [`Tol::times`] |
 //! | check a derivative against differences of values | [`difference_quotient`] |
+//! | read the scenes and pages of the repository | [`repository`] |
 //! | draw random inputs for an identity | [`strategies`] |
 //! | disturb exact data by normal noise | [`NormalNoise`] |
 //! | tell rounding from the rest | [`DoubleDouble`] |
@@ -23,6 +24,7 @@ mod double_double;
 pub mod golden;
 mod noise;
 mod orders;
+pub mod repository;
 pub mod smooth_cube;
 pub mod spectral;
 pub mod strategies;

@@ -45,12 +45,11 @@ const FIGURES: &str = "docs/gallery";
 
 fn draw(shell: &Shell, workspace: &Workspace, program: &Path) -> Outcome {
     let (mut page, mut problems) = (String::from(HEAD), Vec::new());
-    let figures = workspace.root.join(FIGURES);
-    // A figure of a scene that is no longer there would stay.
-    let _ = std::fs::remove_dir_all(&figures);
-    std::fs::create_dir_all(&figures).map_err(|error| vec![format!("{FIGURES}: {error}")])?;
+    // The page and its figures are replaced when every scene has run, so that a scene that fails leaves the tree as it is.
+    let drawn = Workspace::target(shell).map_err(|error| vec![error])?.join("gallery-figures");
+    empty(&drawn).map_err(|error| vec![error])?;
     for name in scenes(workspace) {
-        match entry(shell, workspace, program, &name) {
+        match entry(shell, workspace, (program, &drawn), &name) {
             Ok(text) => page.push_str(&text),
             Err(problem) => problems.push(format!("scenes/{name}.toml: {problem}")),
         }
@@ -58,8 +57,27 @@ fn draw(shell: &Shell, workspace: &Workspace, program: &Path) -> Outcome {
     if !problems.is_empty() {
         return Err(problems);
     }
+    replace(&workspace.root.join(FIGURES), &drawn).map_err(|error| vec![error])?;
     std::fs::write(workspace.root.join(PAGE), page).map_err(|error| vec![format!("{PAGE}: {error}")])?;
     Ok(format!("{PAGE} is written"))
+}
+
+/// Makes an empty folder, whatever was there before.
+fn empty(folder: &Path) -> Result<(), String> {
+    // What is not there needs no removing, and what stays is found out by the next line or overwritten.
+    let _ = std::fs::remove_dir_all(folder);
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))
+}
+
+/// Replaces the files of a folder by those of another. A figure of a scene that is no longer there would stay otherwise.
+fn replace(folder: &Path, by: &Path) -> Result<(), String> {
+    let entries = std::fs::read_dir(by).map_err(|error| format!("{}: {error}", by.display()))?;
+    empty(folder)?;
+    for file in entries.flatten() {
+        let kept = folder.join(file.file_name());
+        std::fs::copy(file.path(), &kept).map_err(|error| format!("{}: {error}", kept.display()))?;
+    }
+    Ok(())
 }
 
 const HEAD: &str = "# Gallery
@@ -69,8 +87,8 @@ yourself: `cargo run --release -- run scenes/NAME.toml`. Scenes of `[robot]` nee
 `--features spectral`.
 ";
 
-/// The heading, the words, the figure and the plan of a scene.
-fn entry(shell: &Shell, workspace: &Workspace, program: &Path, name: &str) -> Result<String, String> {
+/// The heading, the words, the figure and the plan of a scene; the figure is copied to the folder `drawn`.
+fn entry(shell: &Shell, workspace: &Workspace, (program, drawn): (&Path, &Path), name: &str) -> Result<String, String> {
     let scene = format!("scenes/{name}.toml");
     let text = read(&workspace.root.join(&scene))?;
     let plan = cmd!(shell, "{program} plan {scene}").quiet().read().map_err(|error| error.to_string())?;
@@ -79,8 +97,8 @@ fn entry(shell: &Shell, workspace: &Workspace, program: &Path, name: &str) -> Re
     run.read().map_err(|error| error.to_string())?;
     let mut entry = format!("\n## {}\n\n{}\n\n[{scene}](../{scene})\n\n", title(&text, name), words(&text));
     if let Some(figure) = smallest(&out) {
-        let kept = format!("{FIGURES}/{name}.svg");
-        std::fs::copy(&figure, workspace.root.join(&kept)).map_err(|error| format!("{kept}: {error}"))?;
+        let kept = drawn.join(format!("{name}.svg"));
+        std::fs::copy(&figure, &kept).map_err(|error| format!("{}: {error}", kept.display()))?;
         let _ = writeln!(entry, "![{}](gallery/{name}.svg)\n", title(&text, name));
     }
     let _ = writeln!(entry, "```text\n{}\n```", steady(&plan));
@@ -150,13 +168,31 @@ fn shown(page: &str) -> impl Iterator<Item = &str> {
 
 #[cfg(test)]
 mod tests {
-    use super::{absent, shown, steady, title, words};
+    use super::{absent, empty, replace, shown, steady, title, words};
 
     #[test]
     fn a_scene_is_told_by_its_first_comment_and_its_title() {
         let text = "# A top,\n# spinning.\n\nname = \"top\"\ntitle = \"Heavy top\"\n# more\n";
         assert_eq!((words(text).as_str(), title(text, "top").as_str()), ("A top,\nspinning.", "Heavy top"));
         assert_eq!(title("name = \"top\"", "top"), "top");
+    }
+
+    #[test]
+    fn figures_are_replaced_at_once_and_no_old_one_stays() {
+        let root = std::env::temp_dir().join(format!("piola-gallery-{}", std::process::id()));
+        let (shown, drawn) = (root.join("shown"), root.join("drawn"));
+        let write = |path: std::path::PathBuf, text: &str| {
+            std::fs::write(path, text).unwrap_or_else(|error| panic!("{error}"));
+        };
+        assert_eq!((empty(&shown), empty(&drawn)), (Ok(()), Ok(())));
+        write(shown.join("old.svg"), "old");
+        write(shown.join("top.svg"), "old");
+        write(drawn.join("top.svg"), "new");
+        assert_eq!(replace(&shown, &drawn), Ok(()));
+        assert!(!shown.join("old.svg").exists());
+        assert_eq!(std::fs::read_to_string(shown.join("top.svg")).ok().as_deref(), Some("new"));
+        assert!(replace(&shown, &root.join("absent")).is_err() && shown.join("top.svg").exists());
+        let _ = std::fs::remove_dir_all(&root);
     }
 
     #[test]

@@ -116,4 +116,36 @@ fn a_run_without_a_checkpoint_says_so_and_begins_at_its_start() {
     let output = folder.piola(&["run", study.to_str().unwrap_or_default(), "--out", "out", "--resume"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(err(&output).contains("a study leaves no checkpoints"), "{}", err(&output));
+    let output = folder.piola(&["run", study.to_str().unwrap_or_default(), "--out", "out", "--checkpoint", "5"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("run it without --checkpoint"), "{}", err(&output));
+    let tied = "[mechanism]\n[[joint]]\nname = 'turn'\ntype = 'revolute'\naxis = [0, 1, 0]\n\
+                [[particle]]\nname = 'bob'\njoint = 'turn'\nmass = 1.0\nat = [0, 0, -1]\n\
+                [[constraint]]\nname = 'it'\ntype = 'prescribed'\ncoordinate = 'turn'\nmotion = 't/1[s]'\n[time]\nend = 0.1\n";
+    let tied = folder.scene(tied);
+    for flag in [&["--resume"][..], &["--checkpoint", "5"]] {
+        let output = folder.piola(&[&["run", tied.to_str().unwrap_or_default(), "--out", "tied"], flag].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        assert!(err(&output).contains("a mechanism with constraints leaves no checkpoints"), "{}", err(&output));
+    }
+}
+
+#[test]
+fn a_run_without_resume_removes_the_checkpoint_of_a_run_before() {
+    let folder = Folder::new("resume-old");
+    // It would take minutes.
+    let scene = folder.scene(&SCENES[1].1.replace("1500", "1500000"));
+    let checkpoint = folder.0.join("out/.piola-checkpoint");
+    std::fs::create_dir_all(folder.0.join("out")).unwrap_or_else(|error| panic!("{error}"));
+    std::fs::write(&checkpoint, "of a run before").unwrap_or_else(|error| panic!("{error}"));
+    let run = ["run", scene.to_str().unwrap_or_default(), "--out", "out"];
+    let mut child = folder.command(&run).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+    let begun = Instant::now();
+    let is_old = || std::fs::read_to_string(&checkpoint).is_ok_and(|text| text == "of a run before");
+    while is_old() && begun.elapsed() < Duration::from_secs(20) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let killed = child.as_mut().map(|child| child.kill().and_then(|()| child.wait()));
+    assert!(matches!(killed, Ok(Ok(status)) if status.code().is_none()), "not killed while it ran");
+    assert!(!is_old());
 }

@@ -43,6 +43,10 @@ pub struct KeplerMotion {
 }
 
 impl KeplerMotion {
+    /// Turns up to which [`state`](Self::state) keeps its accuracy, 10¹². Beyond 2⁵³ ≈ 9·10¹⁵ turns the number of whole turns is no
+    /// longer a double, and the state is wrong.
+    pub const MOST_TURNS: f64 = 1e12;
+
     /// The motion about a centre of gravitational parameter μ = `gm` (m³/s²) from a position (m) and velocity (m/s).
     ///
     /// # Errors
@@ -112,6 +116,9 @@ impl KeplerMotion {
     /// x = f x₀ + g v₀,    f = 1 − (a/r₀)(1 − cos ΔE),    g = (ΔM − ΔE + sin ΔE)/n
     /// v = ḟ x₀ + ġ v₀,    ḟ = −n (a/r₀)(a/r) sin ΔE,    ġ = 1 − (a/r)(1 − cos ΔE)
     /// ```
+    ///
+    /// # Accuracy
+    /// The mean anomaly is off by about n t 2⁻¹⁰⁴ rad besides the rounding of the result, up to [`MOST_TURNS`](Self::MOST_TURNS).
     ///
     /// # Example
     /// ```

@@ -110,12 +110,6 @@ impl Scene {
     pub fn names(&self) -> Vec<&str> {
         self.system.names()
     }
-
-    /// Whether a Poincaré section is asked for, which may have no crossings.
-    #[must_use]
-    pub fn asks_for_section(&self) -> bool {
-        matches!(&self.system, System::Phase(system) if system.questions.section.is_some())
-    }
 }
 
 /// Builds the model and collects mistakes.

@@ -18,7 +18,10 @@ use crate::run::{Answers, Run};
 use piola_simulation::phase::PhaseAnswers;
 use piola_simulation::questions::MechanismAnswers;
 
-/// Writes everything that the plan lists.
+/// The time of a crossing, and its q and p.
+type Crossing = (f64, Vec<f64>);
+
+/// Writes everything that the plan lists; no table of a question that was not answered.
 #[must_use]
 pub fn write(folder: &Folder, scene: &Scene, plan: &Plan, run: &Run, summary: &Summary) -> Written {
     let text = |name: &str| match name {
@@ -27,12 +30,12 @@ pub fn write(folder: &Folder, scene: &Scene, plan: &Plan, run: &Run, summary: &S
         "invariants.csv" => Some(tables::invariants(&run.history)),
         "works.csv" => Some(tables::works(&run.history)),
         "energies.csv" => Some(tables::energies(&run.history)),
-        "section.csv" => Some(tables::section(&run.history, phase_answers(run)?)),
-        "exponent.csv" => Some(tables::exponent(phase_answers(run)?)),
+        "section.csv" => Some(tables::section(&run.history, crossings(run)?)),
+        "exponent.csv" => Some(tables::exponent(phase_answers(run).filter(|found| !found.estimates.is_empty())?)),
         "brackets.csv" => Some(tables::brackets(scene, &run.history, phase_answers(run)?)),
         "modes.csv" => Some(tables::modes(&run.history, mechanism_answers(run)?)),
         "phase.svg" => Some(phase::planes(title(scene), &run.history)),
-        "section.svg" => Some(phase::section(title(scene), &run.history, phase_answers(run)?)),
+        "section.svg" => Some(phase::section(title(scene), &run.history, crossings(run)?)),
         "reactions.csv" => Some(tables::reactions(&run.history)),
         "constraints.csv" => Some(tables::conditions(&run.history)),
         "coordinates.csv" => Some(tables::coordinates(&run.history)),
@@ -47,6 +50,11 @@ pub fn write(folder: &Folder, scene: &Scene, plan: &Plan, run: &Run, summary: &S
 
 fn phase_answers(run: &Run) -> Option<&PhaseAnswers> {
     if let Some(Answers::Phase(answers)) = &run.answers { Some(answers) } else { None }
+}
+
+/// The crossings of the section, if it was sought.
+fn crossings(run: &Run) -> Option<&[Crossing]> {
+    phase_answers(run)?.crossings.as_deref()
 }
 
 fn mechanism_answers(run: &Run) -> Option<&MechanismAnswers> {

@@ -3,8 +3,8 @@
 use core::ops::Range;
 
 use piola_charts::{Area, Color as _, Drawn, FINE, colour, discs, figure, line, plane_chart};
-use piola_simulation::phase::PhaseAnswers;
 
+use super::Crossing;
 use crate::run::History;
 
 /// Planes that are drawn.
@@ -18,9 +18,9 @@ pub(super) fn planes(title: &str, history: &History) -> String {
 }
 
 /// The crossings of a section in the same planes.
-pub(super) fn section(title: &str, history: &History, answers: &PhaseAnswers) -> String {
+pub(super) fn section(title: &str, history: &History, crossings: &[Crossing]) -> String {
     let n = history.coordinate_names.len() / 2;
-    let points = |i: usize| answers.crossings.iter().map(|(_, point)| (point[i], point[n + i])).collect();
+    let points = |i: usize| crossings.iter().map(|(_, point)| (point[i], point[n + i])).collect();
     panels(&format!("{title}: section"), history, &(0..n).map(|i| (i, n + i, points(i))).collect::<Vec<_>>(), false)
 }
 

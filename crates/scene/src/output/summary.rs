@@ -108,14 +108,14 @@ fn answers(scene: &Scene, run: &Run, found: &Answers) -> Value {
     match found {
         Answers::Phase(answers) => {
             let mut told = Map::new();
-            if scene.asks_for_section() {
-                told.insert("crossings".into(), json!(answers.crossings.len()));
+            if let Some(crossings) = &answers.crossings {
+                told.insert("crossings".into(), json!(crossings.len()));
             }
             if let Some(exponent) = answers.exponent {
                 told.insert("largest_exponent_1_per_s".into(), json!(exponent));
             }
             if let System::Phase(system) = &scene.system {
-                told.extend(phase_structure(system, answers));
+                told.extend(phase_structure(system, run, answers));
             }
             Value::Object(told)
         }
@@ -137,8 +137,9 @@ fn answers(scene: &Scene, run: &Run, found: &Answers) -> Value {
 /// Relative residual up to which a change of variables counts as canonical: rounding of its Jacobian.
 const CANONICAL: f64 = 1e-12;
 
-/// Brackets at the start and their largest sizes, and whether the new variables are canonical.
-fn phase_structure(system: &PhaseSystem, answers: &PhaseAnswers) -> Map<String, Value> {
+/// Brackets at the start and their largest sizes, and whether the new variables are canonical: `null` if none of the tested instants
+/// speaks against it but the run is not complete.
+fn phase_structure(system: &PhaseSystem, run: &Run, answers: &PhaseAnswers) -> Map<String, Value> {
     let mut told = Map::new();
     if let Some(start) = answers.brackets.first() {
         let of = |(i, bracket): (usize, &BracketQuestion)| {
@@ -149,8 +150,10 @@ fn phase_structure(system: &PhaseSystem, answers: &PhaseAnswers) -> Map<String, 
         told.insert("brackets".into(), Value::Object(brackets));
     }
     if let Some((t, test)) = answers.canonical {
+        let holds = test.relative <= CANONICAL;
+        let known = !holds || matches!(run.outcome, Outcome::Completed);
         let worst = json!({
-            "is_canonical": test.relative <= CANONICAL,
+            "is_canonical": known.then_some(holds),
             "largest_relative_residual": test.relative,
             "at_time_s": t,
         });

@@ -5,6 +5,7 @@ use core::fmt::Write as _;
 use piola_simulation::phase::PhaseAnswers;
 use piola_simulation::questions::MechanismAnswers;
 
+use super::Crossing;
 use crate::model::{Scene, System};
 use crate::run::{History, PartReaction, Run};
 
@@ -65,9 +66,9 @@ pub(super) fn energies(history: &History) -> String {
 }
 
 /// Crossings of a Poincaré section.
-pub(super) fn section(history: &History, answers: &PhaseAnswers) -> String {
-    let times: Vec<f64> = answers.crossings.iter().map(|(t, _)| *t).collect();
-    let points: Vec<Vec<f64>> = answers.crossings.iter().map(|(_, point)| point.clone()).collect();
+pub(super) fn section(history: &History, crossings: &[Crossing]) -> String {
+    let times: Vec<f64> = crossings.iter().map(|(t, _)| *t).collect();
+    let points: Vec<Vec<f64>> = crossings.iter().map(|(_, point)| point.clone()).collect();
     columns(&times, &history.coordinate_names, &points)
 }
 

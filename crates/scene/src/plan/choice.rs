@@ -139,21 +139,30 @@ fn automatic(scene: &Scene) -> (Method, String) {
         }
         System::Central(system) => {
             let compares = matches!(scene.reference.as_ref().map(|reference| &reference.kind), Some(ReferenceKind::ClosedForm(_)));
-            if request.step.is_none() && request.tolerance.is_none() && !compares && are_ellipses(system) {
+            let free = request.step.is_none() && request.tolerance.is_none() && are_ellipses(system);
+            let few = shortest_period(system).is_some_and(|period| scene.time.length() / period <= KeplerMotion::MOST_TURNS);
+            if free && few && !compares {
                 let why = "every body moves on an ellipse of its own, which has a closed form; errors do not grow with steps";
                 return (Method::ClosedForm, why.to_string());
             }
+            let because = match (free, compares) {
+                (true, true) => "integrated because the reference is the closed form itself; ".to_string(),
+                (true, false) => {
+                    format!("integrated because the closed form takes at most {:e} turns; ", KeplerMotion::MOST_TURNS)
+                }
+                (false, _) => String::new(),
+            };
             let e = eccentricity(system);
             if request.step.is_some() || (request.tolerance.is_none() && e <= 0.2) {
                 let (step, why) = step(scene, Order::Eight);
                 return (
                     Method::Composition { order: Order::Eight, step },
                     format!(
-                        "forces depend on positions alone and the orbit is near a circle: explicit, symplectic; {why}"
+                        "{because}forces depend on positions alone and the orbit is near a circle: explicit, symplectic; {why}"
                     ),
                 );
             }
-            let why = format!("the eccentricity {e:.4} needs steps of very different lengths: the step adapts");
+            let why = format!("{because}the eccentricity {e:.4} needs steps of very different lengths: the step adapts");
             adaptive(scene, FINE_TOLERANCE, &why)
         }
         System::Phase(system) => phase(scene, system),

@@ -54,7 +54,9 @@ pub struct Checkpoints {
     asked: Duration,
     pause: Duration,
     written: Instant,
-    /// Steps until the next look at the clock.
+    /// Time from the last checkpoint to the last look at the clock.
+    seen: Duration,
+    /// Calls until the next look at the clock.
     unwatched: u32,
     failure: Option<ChartsError>,
 }
@@ -63,11 +65,19 @@ pub struct Checkpoints {
 const FILE: &str = ".piola-checkpoint";
 
 impl Checkpoints {
-    /// Checkpoints in a folder, written when `pause` has gone by since the one before. The pause grows to twenty times what
-    /// writing takes.
+    /// Checkpoints in a folder, written when `pause` has gone by since the one before, and where a run is stopped. The pause grows to
+    /// twenty times what writing takes.
     #[must_use]
     pub fn new(folder: &Folder, pause: Duration) -> Self {
-        Self { folder: folder.clone(), asked: pause, pause, written: Instant::now(), unwatched: 0, failure: None }
+        Self {
+            folder: folder.clone(),
+            asked: pause,
+            pause,
+            written: Instant::now(),
+            seen: Duration::ZERO,
+            unwatched: 0,
+            failure: None,
+        }
     }
 
     /// The checkpoint that a run before has left in the folder; `None` if there is none.
@@ -108,14 +118,18 @@ impl Checkpoints {
 
 impl CheckpointKeeper for Checkpoints {
     fn is_due(&mut self) -> bool {
-        /// Of steps that take a microsecond a look at the clock at each would be felt.
+        /// Calls that are passed over where they come fast: of steps that take a microsecond a look at the clock at each would be felt.
         const STRIDE: u32 = 8;
-        if 0 < self.unwatched && !self.asked.is_zero() {
+        /// Calls come fast if less than this part of the pause goes by between two looks.
+        const FAST: u32 = 100;
+        if 0 < self.unwatched {
             self.unwatched -= 1;
             return false;
         }
-        self.unwatched = STRIDE;
-        self.pause <= self.written.elapsed()
+        let gone = self.written.elapsed();
+        self.unwatched = if FAST * gone.saturating_sub(self.seen) < self.pause { STRIDE } else { 0 };
+        self.seen = gone;
+        self.pause <= gone
     }
 
     fn keep(&mut self, checkpoint: &MotionCheckpoint) {
@@ -125,7 +139,7 @@ impl CheckpointKeeper for Checkpoints {
         // All keys are texts: nothing here can fail to serialise.
         let text = serde_json::to_string(checkpoint).unwrap_or_default();
         self.failure = self.folder.write(FILE, &text).err();
-        self.written = Instant::now();
+        (self.written, self.seen, self.unwatched) = (Instant::now(), Duration::ZERO, 0);
         self.pause = self.asked.max(SHARE * begun.elapsed());
         if self.asked.is_zero() {
             self.pause = Duration::ZERO;

@@ -158,8 +158,6 @@ pub struct Prediction {
 ///     eccentricity = 0.5
 ///     [time]
 ///     end = {end}
-///     [integrator]
-///     tolerance = 1e-12
 /// "));
 /// let long = Scene::from_document(&orbit("1e30"))?;
 /// assert!(run::trial(&long, &Plan::of(&long)).unwrap().seconds > 1e9);

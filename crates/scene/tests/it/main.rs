@@ -3,6 +3,7 @@
 mod bad_input;
 #[cfg(feature = "spectral")]
 mod boxes;
+mod checkpoints;
 mod constraints;
 #[cfg(all(feature = "solutions", feature = "spectral"))]
 mod figures;

@@ -70,6 +70,11 @@ fn ellipses_are_taken_from_their_closed_form_unless_something_speaks_against_it(
     for text in [ORBIT.to_string(), format!("{alone}[integrator]\ntolerance = 1e-9\n"), fast] {
         assert_ne!(plan(&text).method.to_string(), "closed-form", "{text}");
     }
+    let compared = plan(ORBIT).reason;
+    assert!(compared.starts_with("integrated because the reference is the closed form itself"), "{compared}");
+    // Beyond 2⁵³ turns the closed form would give finite nonsense.
+    let long = plan(&replaced(&alone, "revolutions = 2", "revolutions = 1e13")).reason;
+    assert!(long.starts_with("integrated because the closed form takes at most 1e12 turns"), "{long}");
 }
 
 #[test]

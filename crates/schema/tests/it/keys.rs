@@ -1,8 +1,7 @@
 //! The JSON Schema agrees with the declared keys, and the documentation with both.
 
-use std::path::Path;
-
 use piola_schema::{self as schema, Absent, Kind, SCENE, Table};
+use piola_testkit::repository;
 use serde_json::Value;
 
 #[test]
@@ -48,11 +47,7 @@ fn names_of_keys_differ_and_everything_is_documented() {
 
 #[test]
 fn documentation_holds_the_generated_tables() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference/scenes.md");
-    // A folder in which a package was unpacked has no documentation.
-    if !path.exists() {
-        return;
-    }
+    let Some(path) = repository::path("docs/reference/scenes.md") else { return };
     let documentation = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     assert!(
         documentation.contains(&schema::markdown()),

@@ -1,4 +1,4 @@
-//! Systems and steps behind pointers, so that the integrators are compiled once and not once a system.
+//! Systems and steps behind pointers, so that the integrators are compiled once, not once for each system.
 
 use core::fmt::Display;
 
@@ -6,8 +6,8 @@ use piola_integrators::{
     Checkpoint, DenseStep, Field, NystromPair, NystromStep, RungeKuttaPair, SecondOrder, Separable,
 };
 
-/// A field or a separable pair behind a pointer: the integrators are compiled once and not once a system.
-/// Their cost beside the forces of a system is a call through a pointer, some nanoseconds an evaluation.
+/// A field behind a pointer, so that the integrators are compiled once, not once for each system.
+/// It costs a call through a pointer, some nanoseconds an evaluation.
 pub(super) struct AnyField<'f, F: ?Sized>(pub(super) &'f mut F);
 
 /// What an integrator asks of a field, with errors as text.

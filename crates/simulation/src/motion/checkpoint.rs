@@ -20,6 +20,15 @@ use crate::SimulationError;
 #[serde(deny_unknown_fields)]
 pub struct MotionCheckpoint {
     pub(super) marks: Marks,
+    /// The fingerprint of the body.
+    fingerprint: u64,
+    pub(super) body: MotionCheckpointBody,
+}
+
+/// What a run goes on from.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MotionCheckpointBody {
     pub(super) stage: Stage,
     pub(super) report: Report,
     pub(super) steps: u64,
@@ -46,21 +55,23 @@ pub(super) enum Stage {
 }
 
 impl Marks {
-    /// Of a run: the version of this crate, and a fingerprint of the system, the method and the instants.
+    /// Of a run: the version of this crate, and a fingerprint of the system with its questions, the method and the instants.
     pub(super) fn of(system: &System, method: Method, timetable: &Timetable) -> Self {
-        let mut fingerprint = Fingerprint::default();
-        // Every field of these types is in their text, numbers with all their digits; a fingerprint takes any text.
-        let _ = write!(fingerprint, "{system:?}{method:?}{timetable:?}");
-        Self { version: env!("CARGO_PKG_VERSION").to_string(), run: fingerprint.0 }
+        let run = Fingerprint::of(format_args!("{system:?}{method:?}{timetable:?}"));
+        Self { version: env!("CARGO_PKG_VERSION").to_string(), run }
     }
 }
 
 /// The hash FNV-1a of a text, of 64 bits.
 struct Fingerprint(u64);
 
-impl Default for Fingerprint {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
+impl Fingerprint {
+    /// Of a text in which every field of some data stands, numbers with all their digits.
+    fn of(text: fmt::Arguments<'_>) -> u64 {
+        let mut fingerprint = Self(0xcbf2_9ce4_8422_2325);
+        // A fingerprint takes any text.
+        let _ = fingerprint.write_fmt(text);
+        fingerprint.0
     }
 }
 
@@ -74,19 +85,25 @@ impl Write for Fingerprint {
 }
 
 impl MotionCheckpoint {
+    pub(super) fn new(marks: Marks, body: MotionCheckpointBody) -> Self {
+        Self { marks, fingerprint: Fingerprint::of(format_args!("{body:?}")), body }
+    }
+
     /// Time reached, s.
     #[must_use]
     pub fn time(&self) -> f64 {
-        match &self.stage {
+        match &self.body.stage {
             Stage::Fixed(state) => state.time,
             Stage::Adaptive(checkpoint) => checkpoint.state().time,
         }
     }
 
-    /// Checks that this version of Piola made the checkpoint, in a run of this system by this method at these instants.
+    /// Checks that this version of Piola made the checkpoint, in a run of this system by this method at these instants, and that it
+    /// is as it was made.
     ///
     /// # Errors
-    /// [`SimulationError::CheckpointOfOtherVersion`], [`SimulationError::CheckpointOfOtherRun`].
+    /// [`SimulationError::CheckpointOfOtherVersion`], [`SimulationError::CheckpointOfOtherRun`],
+    /// [`SimulationError::CheckpointChanged`].
     pub fn check(&self, system: &System, method: Method, timetable: &Timetable) -> Result<(), SimulationError> {
         let expected = Marks::of(system, method, timetable);
         if self.marks.version != expected.version {
@@ -95,6 +112,10 @@ impl MotionCheckpoint {
         }
         if self.marks.run != expected.run {
             return Err(SimulationError::CheckpointOfOtherRun);
+        }
+        let Self { fingerprint, body, .. } = self;
+        if *fingerprint != Fingerprint::of(format_args!("{body:?}")) {
+            return Err(SimulationError::CheckpointChanged);
         }
         Ok(())
     }
@@ -108,6 +129,8 @@ pub trait CheckpointKeeper {
     /// Whether a checkpoint is wanted now. An adaptive method asks after every step. A method of fixed step asks at every instant
     /// that is recorded, and after every thousand steps between two instants.
     fn is_due(&mut self) -> bool;
-    /// Takes a checkpoint.
+    /// Takes a checkpoint: one that is due, or the last one of a run that its observer stops. Of an adaptive method and of a closed
+    /// form the last one is of the step at which the run stops. Of a method of fixed step it is of the last instant that was recorded
+    /// or the last thousand steps, because the method begins anew there.
     fn keep(&mut self, checkpoint: &MotionCheckpoint);
 }

@@ -12,7 +12,7 @@ use piola_integrators::{
 };
 
 use super::any_field::{AdaptiveStep, AnyField, FieldWithText, SecondOrderWithText, SeparableWithText};
-use super::checkpoint::{CheckpointKeeper, Marks, MotionCheckpoint, Stage};
+use super::checkpoint::{CheckpointKeeper, Marks, MotionCheckpoint, MotionCheckpointBody, Stage};
 use super::{History, Invariants, Method, Progress, TimeSpan, Timetable};
 
 /// Reads everything that is recorded out of a state.
@@ -101,6 +101,10 @@ impl<'o> Driver<'o> {
         self.span.start
     }
 
+    pub(super) fn span(&self) -> TimeSpan {
+        self.span
+    }
+
     pub(super) fn history(&mut self) -> &mut History {
         &mut self.history
     }
@@ -125,28 +129,27 @@ impl<'o> Driver<'o> {
         if self.left == 0 { ControlFlow::Break(()) } else { going }
     }
 
-    /// Hands a checkpoint to the keeper if one is due.
+    /// Hands a checkpoint to the keeper if one is due or the run is stopped.
     fn keep(&mut self, stage: impl FnOnce() -> Stage) {
-        let Some((keeper, marks)) = &mut self.keeper else { return };
-        if !keeper.is_due() {
-            return;
+        if self.keeper.as_mut().is_some_and(|(keeper, _)| self.stopped || keeper.is_due()) {
+            self.hand_over(stage(), self.report, self.steps);
         }
-        let checkpoint = MotionCheckpoint {
-            marks: marks.clone(),
-            stage: stage(),
-            report: self.report,
-            steps: self.steps,
-            next: self.next,
-            landing: self.landing,
-            history: core::mem::take(&mut self.history),
-        };
+    }
+
+    /// Hands a checkpoint to the keeper.
+    fn hand_over(&mut self, stage: Stage, report: Report, steps: u64) {
+        let Some((keeper, marks)) = &mut self.keeper else { return };
+        let (marks, history) = (marks.clone(), core::mem::take(&mut self.history));
+        let body = MotionCheckpointBody { stage, report, steps, next: self.next, landing: self.landing, history };
+        let checkpoint = MotionCheckpoint::new(marks, body);
         keeper.keep(&checkpoint);
-        self.history = checkpoint.history;
+        self.history = checkpoint.body.history;
     }
 
     /// Records the state at the start, or takes up what a checkpoint holds.
     fn begin(&mut self, state: &mut State, reading: &mut dyn Reading) -> Option<Checkpoint> {
-        if let Some(MotionCheckpoint { stage, report, steps, next, landing, history, .. }) = self.resumed.take() {
+        if let Some(MotionCheckpoint { body, .. }) = self.resumed.take() {
+            let MotionCheckpointBody { stage, report, steps, next, landing, history } = body;
             (self.report, self.steps, self.next, self.landing, self.history) = (report, steps, next, landing, history);
             let checkpoint = match stage {
                 Stage::Fixed(resumed) => {
@@ -174,7 +177,8 @@ impl<'o> Driver<'o> {
     fn fixed(&mut self, state: &mut State, reading: &mut dyn Reading, advance: Advance<'_, 'o>) -> Result<(), String> {
         self.begin(state, reading);
         while let Some(&instant) = self.instants.get(self.next) {
-            let steps_before = self.steps;
+            let (steps_before, report_before) = (self.steps, self.report);
+            let state_before = self.keeper.is_some().then(|| state.clone());
             self.left = PIECE;
             let result = advance(self, state, instant);
             self.time = state.time;
@@ -188,6 +192,12 @@ impl<'o> Driver<'o> {
             if self.report.ending == Ending::Stopped && !self.stopped {
                 self.keep(|| Stage::Fixed(state.clone()));
                 continue;
+            }
+            // A run that is stopped within a piece goes on from the beginning of the piece.
+            if self.report.ending == Ending::Stopped
+                && let Some(before) = state_before
+            {
+                self.hand_over(Stage::Fixed(before), report_before, steps_before);
             }
             reading.record(state.time, &state.values, &mut self.history);
             let invariants = reading.invariants(state.time, &state.values);
@@ -218,11 +228,12 @@ impl<'o> Driver<'o> {
             self.history.invariants.push(invariants);
             self.next += 1;
             self.report.steps += 1;
-            if self.step_done(instant).is_break() {
+            let going = self.step_done(instant);
+            self.keep(|| Stage::Fixed(state.clone()));
+            if going.is_break() {
                 self.report.ending = Ending::Stopped;
                 break;
             }
-            self.keep(|| Stage::Fixed(state.clone()));
         }
     }
 
@@ -365,9 +376,7 @@ impl<'o> Driver<'o> {
             self.history.invariants.push(invariants);
         }
         let going = self.step_done(step.time());
-        if going.is_continue() {
-            self.keep(|| Stage::Adaptive(step.checkpoint()));
-        }
+        self.keep(|| Stage::Adaptive(step.checkpoint()));
         going
     }
 

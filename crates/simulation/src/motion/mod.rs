@@ -103,13 +103,15 @@ pub fn simulate(
     driven(system, method, timetable, (None, None), observer)
 }
 
-/// As [`simulate`], with checkpoints: the run begins at one if there is one, and gives others to their keeper.
+/// As [`simulate`], with checkpoints: the run begins at one if there is one, and gives others to their keeper. A run that its
+/// observer stops gives a last one.
 ///
 /// The record is the same, to the last bit, as that of [`simulate`]. A mechanism with constraints gives no checkpoints: its
 /// motion remembers more than its state.
 ///
 /// # Errors
-/// [`SimulationError::CheckpointOfOtherVersion`], [`SimulationError::CheckpointOfOtherRun`].
+/// [`SimulationError::CheckpointOfOtherVersion`], [`SimulationError::CheckpointOfOtherRun`],
+/// [`SimulationError::CheckpointChanged`].
 ///
 /// # Example
 /// ```

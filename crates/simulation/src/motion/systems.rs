@@ -84,7 +84,15 @@ pub(super) fn central(system: &model::Central, method: Method, driver: &mut Driv
                 .iter()
                 .map(|body| {
                     let motion = KeplerMotion::new(system.gm, body.position, body.velocity);
-                    motion.map_err(|error| format!("the closed form of {}: {error}", body.name))
+                    let motion = motion.map_err(|error| format!("the closed form of {}: {error}", body.name))?;
+                    let (turns, most) = (driver.span().length() / motion.period(), KeplerMotion::MOST_TURNS);
+                    if turns <= most {
+                        return Ok(motion);
+                    }
+                    Err(format!(
+                        "the closed form of {}: the time is {turns:e} turns; at most {most:e} are valid",
+                        body.name
+                    ))
                 })
                 .collect::<Result<_, _>>()?;
             let (start, n) = (driver.start(), 3 * system.bodies.len());

@@ -1,5 +1,6 @@
 //! Questions to a Hamiltonian: sections, exponents, brackets, changes of variables.
 
+use core::cell::Cell;
 use core::ops::ControlFlow;
 
 use piola_hamiltonian::{
@@ -13,6 +14,15 @@ use crate::motion::{History, TimeSpan};
 
 /// Intervals after which variations are made of length one again.
 const INTERVALS: usize = 400;
+
+/// Recorded instants between two questions to the observer.
+const STRIDE: usize = 256;
+
+/// The observer of a search: it gets the part that is done and may stop the search.
+type Watch<'w> = &'w mut dyn FnMut(f64) -> ControlFlow<()>;
+
+/// What is computed at a recorded instant from q, p and t.
+type AtInstant<'a> = &'a mut dyn FnMut(&[f64], &[f64], f64) -> Result<(), String>;
 
 /// What is asked of a Hamiltonian besides its motion.
 ///
@@ -47,13 +57,13 @@ impl PhaseQuestions {
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct PhaseAnswers {
-    /// Crossings of the section: time, then q and p.
-    pub crossings: Vec<(f64, Vec<f64>)>,
+    /// Crossings of the section: time, then q and p; `None` where no section was sought.
+    pub crossings: Option<Vec<(f64, Vec<f64>)>>,
     /// The estimate of the largest exponent at the end, 1/s.
     pub exponent: Option<f64>,
     /// Its estimates over time: (s since the start, 1/s).
     pub estimates: Vec<[f64; 2]>,
-    /// The brackets, for each recorded instant, in the order of the questions.
+    /// The brackets, for each recorded instant until one is not defined, in the order of the questions.
     pub brackets: Vec<Vec<f64>>,
     /// The instant at which the change of variables is farthest from canonical, s, and the test there.
     pub canonical: Option<(f64, CanonicalTest)>,
@@ -62,6 +72,9 @@ pub struct PhaseAnswers {
 impl PhaseSystem {
     /// The answers to the questions over a span of time: brackets and the test of a change of variables at the instants of the
     /// record, the others by runs of their own. The observer gets the part that is done and may stop the search.
+    ///
+    /// A question that fails leaves what it found until then, and the others are answered all the same.
+    /// [`Outcome::Failed`] names every question that failed.
     ///
     /// # Example
     /// An oscillator from q = 3, p = 4 crosses q = 0 upwards once a turn, with p = 5.
@@ -85,8 +98,9 @@ impl PhaseSystem {
     /// oscillator.questions = PhaseQuestions { section: Some((q, 10)), tolerance: 1e-12, ..PhaseQuestions::default() };
     /// let span = TimeSpan { start: 0.0, end: 20.0 };
     /// let (answers, _) = oscillator.answers(span, &History::default(), &mut |_| ControlFlow::Continue(()));
-    /// assert_eq!(answers.crossings.len(), 3);
-    /// assert!((answers.crossings[2].1[1] - 5.0).abs() < 1e-10);
+    /// let crossings = answers.crossings.unwrap();
+    /// assert_eq!(crossings.len(), 3);
+    /// assert!((crossings[2].1[1] - 5.0).abs() < 1e-10);
     /// # Ok::<(), piola_simulation::SimulationError>(())
     /// ```
     pub fn answers(
@@ -96,79 +110,107 @@ impl PhaseSystem {
         observer: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> (PhaseAnswers, Outcome) {
         let mut answers = PhaseAnswers::default();
-        if let Err(why) = self.look_along(history, &mut answers) {
-            return (answers, Outcome::Failed(why));
-        }
-        let mut stopped = false;
+        let stopped = Cell::new(false);
         let mut watch = |share: f64| {
             let go = observer(share);
-            stopped |= go.is_break();
+            stopped.set(stopped.get() || go.is_break());
             go
         };
-        let found = self.find(&mut answers, span, &mut watch);
-        let outcome = match found {
-            Err(why) => Outcome::Failed(why),
-            Ok(()) if stopped => Outcome::Interrupted,
-            Ok(()) => Outcome::Completed,
+        let mut failures = Vec::new();
+        failures.extend(self.brackets_along(history, &mut answers, &mut watch).err());
+        if !stopped.get() {
+            failures.extend(self.canonical_along(history, &mut answers, &mut watch).err());
+        }
+        if !stopped.get() {
+            failures.extend(self.cross_section(span, &mut answers, &mut watch).err());
+        }
+        if !stopped.get() {
+            failures.extend(self.estimate_exponent(span, &mut answers, &mut watch).err());
+        }
+        let outcome = match (failures.is_empty(), stopped.get()) {
+            (false, _) => Outcome::Failed(failures.join("; ")),
+            (true, true) => Outcome::Interrupted,
+            (true, false) => Outcome::Completed,
         };
         (answers, outcome)
     }
 
-    /// Finds the brackets at every recorded instant, and the worst canonical test of the new variables among these instants; or
-    /// says what is not defined, and when.
-    fn look_along(&self, history: &History, answers: &mut PhaseAnswers) -> Result<(), String> {
-        if self.questions.brackets.is_empty() && self.questions.new_variables.is_none() {
-            return Ok(());
-        }
-        for (&t, state) in history.times.iter().zip(&history.coordinates) {
+    /// Calls a function for every recorded instant, until it fails or the observer stops it.
+    fn along(&self, history: &History, watch: Watch<'_>, at: AtInstant<'_>) -> Result<(), String> {
+        let count = history.times.len();
+        for (number, (&t, state)) in history.times.iter().zip(&history.coordinates).enumerate() {
+            if 0 < number && number.is_multiple_of(STRIDE) && watch(number as f64 / count as f64).is_break() {
+                break;
+            }
             let (q, p) = state.split_at(self.freedom());
-            if !self.questions.brackets.is_empty() {
-                let values = self.bracket_values(q, p, t);
-                answers.brackets.push(values.map_err(|error| format!("a bracket at {t} s: {error}"))?);
-            }
-            if let Some(variables) = &self.questions.new_variables {
-                let test = canonical_test(variables, q, p, t);
-                let test = test.map_err(|error| format!("the new variables at {t} s: {error}"))?;
-                if answers.canonical.is_none_or(|(_, worst)| worst.relative < test.relative) {
-                    answers.canonical = Some((t, test));
-                }
-            }
+            at(q, p, t)?;
         }
         Ok(())
     }
 
-    fn find(
-        &self,
-        answers: &mut PhaseAnswers,
-        span: TimeSpan,
-        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<(), String> {
-        let PhaseQuestions { section, exponent, tolerance, .. } = &self.questions;
-        let start = PhasePoint::new(&self.position, &self.momentum, span.start).map_err(|error| error.to_string())?;
-        if let Some((surface, most)) = section {
-            let tolerance = Tolerance::relative(*tolerance).map_err(|error| error.to_string())?;
-            let section = PoincareSection::new(&self.hamiltonian, surface, tolerance);
-            let mut points = Vec::new();
-            let followed = section.follow_observed_into(&start, span.end, *most, &mut points, |t| {
-                watch((t - span.start) / (span.end - span.start))
-            });
-            answers.crossings = points.iter().map(|point| (point.time(), [point.q(), point.p()].concat())).collect();
-            followed.map_err(|error| format!("the section: {error}"))?;
+    /// The brackets at every recorded instant, until one is not defined.
+    fn brackets_along(&self, history: &History, answers: &mut PhaseAnswers, watch: Watch<'_>) -> Result<(), String> {
+        if self.questions.brackets.is_empty() {
+            return Ok(());
         }
-        if *exponent && span.end < span.start {
+        self.along(history, watch, &mut |q, p, t| {
+            let values = self.bracket_values(q, p, t).map_err(|error| format!("a bracket at {t} s: {error}"))?;
+            answers.brackets.push(values);
+            Ok(())
+        })
+    }
+
+    /// The worst canonical test of the new variables among the recorded instants, until one is not defined.
+    fn canonical_along(&self, history: &History, answers: &mut PhaseAnswers, watch: Watch<'_>) -> Result<(), String> {
+        let Some(variables) = &self.questions.new_variables else { return Ok(()) };
+        self.along(history, watch, &mut |q, p, t| {
+            let test = canonical_test(variables, q, p, t);
+            let test = test.map_err(|error| format!("the new variables at {t} s: {error}"))?;
+            if !test.relative.is_finite() {
+                let why =
+                    "products of their derivatives leave the range of doubles; smaller derivatives would be valid";
+                return Err(format!("the new variables at {t} s: {why}"));
+            }
+            if answers.canonical.is_none_or(|(_, worst)| worst.relative < test.relative) {
+                answers.canonical = Some((t, test));
+            }
+            Ok(())
+        })
+    }
+
+    fn cross_section(&self, span: TimeSpan, answers: &mut PhaseAnswers, watch: Watch<'_>) -> Result<(), String> {
+        let PhaseQuestions { section: Some((surface, most)), tolerance, .. } = &self.questions else { return Ok(()) };
+        let failed = |error: &dyn core::fmt::Display| format!("the section: {error}");
+        let start = PhasePoint::new(&self.position, &self.momentum, span.start).map_err(|error| failed(&error))?;
+        let tolerance = Tolerance::relative(*tolerance).map_err(|error| failed(&error))?;
+        let section = PoincareSection::new(&self.hamiltonian, surface, tolerance);
+        let mut points = Vec::new();
+        let followed = section.follow_observed_into(&start, span.end, *most, &mut points, |t| {
+            watch((t - span.start) / (span.end - span.start))
+        });
+        let crossings = points.iter().map(|point| (point.time(), [point.q(), point.p()].concat()));
+        answers.crossings = Some(crossings.collect());
+        followed.map(drop).map_err(|error| failed(&error))
+    }
+
+    fn estimate_exponent(&self, span: TimeSpan, answers: &mut PhaseAnswers, watch: Watch<'_>) -> Result<(), String> {
+        let PhaseQuestions { exponent: true, tolerance, .. } = &self.questions else { return Ok(()) };
+        if span.end < span.start {
             let why = "the Lyapunov exponent of a run backwards in time: an end after the start would be valid";
             return Err(why.to_string());
         }
-        if *exponent && watch(0.0).is_continue() {
-            let tolerance = Tolerance::relative(*tolerance).map_err(|error| error.to_string())?;
-            let intervals = (span.length() / INTERVALS as f64, INTERVALS);
-            let done = |count: usize| watch(count as f64 / INTERVALS as f64);
-            let found = lyapunov_exponents_observed(&self.hamiltonian, &start, 1, intervals, tolerance, done);
-            let LyapunovExponents { exponents, times, history, .. } =
-                found.map_err(|error| format!("the Lyapunov exponent: {error}"))?;
-            answers.exponent = exponents.first().copied();
-            answers.estimates = times.into_iter().zip(history).map(|(t, estimate)| [t, estimate]).collect();
+        if watch(0.0).is_break() {
+            return Ok(());
         }
+        let failed = |error: &dyn core::fmt::Display| format!("the Lyapunov exponent: {error}");
+        let start = PhasePoint::new(&self.position, &self.momentum, span.start).map_err(|error| failed(&error))?;
+        let tolerance = Tolerance::relative(*tolerance).map_err(|error| failed(&error))?;
+        let intervals = (span.length() / INTERVALS as f64, INTERVALS);
+        let done = |count: usize| watch(count as f64 / INTERVALS as f64);
+        let found = lyapunov_exponents_observed(&self.hamiltonian, &start, 1, intervals, tolerance, done);
+        let LyapunovExponents { exponents, times, history, .. } = found.map_err(|error| failed(&error))?;
+        answers.exponent = exponents.first().copied();
+        answers.estimates = times.into_iter().zip(history).map(|(t, estimate)| [t, estimate]).collect();
         Ok(())
     }
 }

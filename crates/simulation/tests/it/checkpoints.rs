@@ -176,3 +176,52 @@ fn a_checkpoint_of_another_run_or_version_is_refused_by_name() {
     assert_eq!(error, Err(expected.clone()));
     assert_eq!(expected.to_string(), format!("the checkpoint is of Piola 0.0.9; this is Piola {version}"));
 }
+
+#[test]
+fn a_run_that_is_stopped_leaves_a_checkpoint_where_it_stopped() {
+    let timetable = Timetable::new(TimeSpan { start: 1.0, end: 8.0 }, 5, &[2.25, 6.5]);
+    let fixed = [
+        Method::Composition { order: Order::Eight, step: 1e-3 },
+        Method::GaussLegendre { order: Order::Four, step: 1e-3 },
+    ];
+    let others = [Method::Verner { tolerance: 1e-12 }, Method::Nystrom1210 { tolerance: 1e-12 }, Method::ClosedForm];
+    for method in fixed.into_iter().chain(others) {
+        let unbroken = simulate(&orbits(), method, &timetable, &mut |_| ControlFlow::Continue(()));
+        for stop in [1, 3, unbroken.steps / 2, unbroken.steps - 1] {
+            let mut keeper = Kept { every: u32::MAX, ..Kept::default() };
+            let stopped = resume(&orbits(), method, &timetable, None, &mut keeper, &mut |progress| {
+                if progress.steps == stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            let stopped = stopped.unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!((stopped.outcome, stopped.steps), (Outcome::Interrupted, stop), "{method}");
+            let [text] = &keeper.texts[..] else { panic!("{method}: {} checkpoints", keeper.texts.len()) };
+            // A method of fixed step goes on from the last instant or the last thousand steps.
+            let lost = stopped.time - read(text).time();
+            let most = method.step().map_or(0.0, |step| 1000.5 * step);
+            assert!((0.0..=most).contains(&lost), "{method} at {stop}: {lost} s");
+            let (continued, _) = run(&orbits(), (method, &timetable), Some(read(text)), u32::MAX);
+            assert_same(&continued, &unbroken, &format!("{method} stopped after {stop} steps"));
+        }
+    }
+}
+
+#[test]
+fn a_checkpoint_that_was_changed_is_refused() {
+    let timetable = Timetable::new(TimeSpan { start: 0.0, end: 4.0 }, 9, &[]);
+    for method in [Method::ClosedForm, Method::Verner { tolerance: 1e-11 }] {
+        let (_, texts) = run(&orbits(), (method, &timetable), None, 2);
+        let whole: serde_json::Value = serde_json::from_str(&texts[0]).unwrap_or_else(|error| panic!("{error}"));
+        let with = |path: &str, value: serde_json::Value| {
+            let mut changed = whole.clone();
+            *changed.pointer_mut(path).unwrap_or_else(|| panic!("no {path}: {whole}")) = value;
+            let changed: MotionCheckpoint = serde_json::from_value(changed).unwrap_or_else(|error| panic!("{error}"));
+            changed.check(&orbits(), method, &timetable)
+        };
+        let changes = [("/body/next", 1_000_000.into()), ("/body/landing", 7.into()), ("/body/steps", 0.into())];
+        let history = ("/body/history/times", serde_json::json!([0.0]));
+        for (path, value) in changes.into_iter().chain([history]) {
+            assert_eq!(with(path, value), Err(SimulationError::CheckpointChanged), "{path}");
+        }
+        assert_eq!(with("/body/next", whole["body"]["next"].clone()), Ok(()));
+    }
+}

@@ -96,4 +96,9 @@ fn a_closed_form_gives_keplers_motion_itself_and_refuses_what_is_no_ellipse() {
     let run = simulate(&System::Central(fast), Method::ClosedForm, &timetable, &mut |_| ControlFlow::Continue(()));
     let Outcome::Failed(why) = run.outcome else { panic!("{:?}", run.outcome) };
     assert!(why.contains("the closed form of near") && why.contains("not an ellipse"), "{why}");
+    // Beyond 2⁵³ turns the closed form would give finite nonsense.
+    let timetable = Timetable::new(TimeSpan { start: 0.0, end: 1e30 }, 7, &[]);
+    let run = simulate(&System::Central(pair()), Method::ClosedForm, &timetable, &mut |_| ControlFlow::Continue(()));
+    let Outcome::Failed(why) = run.outcome else { panic!("{:?}", run.outcome) };
+    assert!(why.ends_with("turns; at most 1e12 are valid"), "{why}");
 }

@@ -8,7 +8,7 @@ use piola_simulation::expression::{Expression, ExpressionNode as Node, Function,
 use piola_simulation::forces::{Force, ForceKind};
 use piola_simulation::joints::{Coordinate, Joint, JointMotion, Mechanism, Part, PartKind};
 use piola_simulation::motion::{History, Method, MotionRun, System, TimeSpan, Timetable, simulate};
-use piola_simulation::phase::{PhaseExpression, PhaseQuestions, PhaseSystem};
+use piola_simulation::phase::{BracketQuestion, NewVariables, PhaseExpression, PhaseQuestions, PhaseSystem};
 use piola_simulation::questions::{MechanismQuestions, Stability};
 use piola_simulation::{Outcome, SimulationError};
 use piola_testkit::{Tol, assert_close};
@@ -138,12 +138,57 @@ fn an_oscillator_crosses_its_section_once_a_turn() {
     oscillator.questions = PhaseQuestions { section, tolerance: 1e-12, ..PhaseQuestions::default() };
     let (answers, _) = oscillator
         .answers(TimeSpan { start: 0.0, end: 100.0 }, &History::default(), &mut |_| ControlFlow::Continue(()));
-    assert_eq!(answers.crossings.len(), 3);
-    for (turn, (t, point)) in answers.crossings.iter().enumerate() {
+    let crossings = answers.crossings.unwrap_or_default();
+    assert_eq!(crossings.len(), 3);
+    for (turn, (t, point)) in crossings.iter().enumerate() {
         let tolerance = Tol::stated(1e-11, "the tolerance times some twenty steps");
         assert_close("time", &[*t], &[0.75 * TAU + TAU * turn as f64], tolerance);
         assert_close("point", point, &[0.0, 1.0], tolerance);
     }
+}
+
+/// A record of these values of q at 0 s, 1 s, …, with p = 1.
+fn record(positions: &[f64]) -> History {
+    let mut history = History::default();
+    history.times = (0..positions.len()).map(|number| number as f64).collect();
+    history.coordinates = positions.iter().map(|q| vec![*q, 1.0]).collect();
+    history
+}
+
+#[test]
+fn brackets_along_a_record_can_be_stopped_and_keep_what_they_found() {
+    let mut pendulum = pendulum();
+    let first = PhaseExpression(expression(vec![Q]));
+    pendulum.questions.brackets = vec![BracketQuestion { name: "rate".into(), first: first.clone(), second: None }];
+    pendulum.questions.section = Some((first, 3));
+    pendulum.questions.tolerance = 1e-12;
+    let history = record(&[0.5; 600]);
+    let mut shares = Vec::new();
+    let (answers, outcome) = pendulum.answers(TimeSpan { start: 0.0, end: 599.0 }, &history, &mut |share| {
+        shares.push(share);
+        ControlFlow::Break(())
+    });
+    // The section was not sought, which differs from a section without crossings.
+    assert_eq!((outcome, answers.brackets.len(), answers.crossings), (Outcome::Interrupted, 256, None));
+    assert_eq!(shares, [256.0 / 600.0]);
+}
+
+#[test]
+fn new_variables_whose_derivatives_overflow_fail_by_name() {
+    // Q = 1e160 q², P = 1e160 p: ∂Q/∂q ∂P/∂p = 2e320 q.
+    let times = |nodes: Vec<Node>| {
+        let last = nodes.len() - 1;
+        let scaled = [Node::Constant(1e160), Node::Operation(Operation::Product, last, last + 1)];
+        expression(nodes.into_iter().chain(scaled).collect())
+    };
+    let mut pendulum = pendulum();
+    let variables = NewVariables::new(vec![times(vec![Q, Node::WholePower(0, 2)])], vec![times(vec![P])]);
+    pendulum.questions.new_variables = variables.ok();
+    let (answers, outcome) = pendulum
+        .answers(TimeSpan { start: 0.0, end: 1.0 }, &record(&[1e-100, 1.0]), &mut |_| ControlFlow::Continue(()));
+    let Outcome::Failed(why) = outcome else { panic!("{outcome:?}") };
+    assert!(why.starts_with("the new variables at 1 s: products of their derivatives leave"), "{why}");
+    assert_eq!(answers.canonical.map(|(t, test)| (t, test.relative)), Some((0.0, 1.0)));
 }
 
 /// A chain of two rods of 1 m with masses of 1 kg, under 10 m/s².
