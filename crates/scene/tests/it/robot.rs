@@ -187,7 +187,7 @@ fn mjcf_files_have_their_gravity_and_each_key_of_a_spring_replaces_its_own() {
     let plan = StudyPlan::of(&study("", "")).to_string();
     assert!(plan.contains("motors of the file") && plan.contains("sets a torque or force: hinge"), "{plan}");
     std::fs::remove_dir_all(&folder).unwrap();
-    let Subject::Robot(arm) = load("two-link-arm.toml", &[]).subject else { panic!("a robot") };
+    let Subject::Robot(arm) = load("six-joint-arm.toml", &[]).subject else { panic!("a robot") };
     assert_eq!(arm.closed.tree().gravity(), [0.0, 0.0, -9.80665]);
 }
 
