@@ -1,11 +1,11 @@
 //! The bodies of a file, one after the other.
 
-use super::element::{Classes, Styled};
+use super::element::{Classes, Styled, unsupported};
 use super::equality::ties;
 use super::geoms::{Geom, inertial, together};
 use super::joints::series;
 use super::place::Place;
-use super::reader::{Names, Placed, Reader, Sites, unsupported};
+use super::reader::{Names, Placed, Reader, Sites};
 use super::settings::{FromGeoms, Settings};
 use super::{Mjcf, MjcfOptions, SkippedElement};
 use crate::error::{FileFault, MultibodyError};

@@ -3,6 +3,10 @@
 use crate::error::{FileFault, MultibodyError};
 use crate::files::{Element, elements, fault, missing, no_such_name, numbers, numbers_up_to};
 
+pub(super) fn unsupported(element: Element<'_>) -> MultibodyError {
+    fault(element, FileFault::Unsupported { element: element.tag_name().name().to_owned() })
+}
+
 /// A class of defaults.
 struct Class<'a> {
     name: &'a str,

@@ -3,9 +3,9 @@
 use piola_kinematics::Attitude;
 
 use super::FileMotor;
-use super::element::Styled;
+use super::element::{Styled, unsupported};
 use super::place::Place;
-use super::reader::{Placed, Reader, unsupported};
+use super::reader::{Placed, Reader};
 use crate::error::{FileFault, MultibodyError};
 use crate::files::{Element, elements, fault, no_such_name};
 use crate::loops::{BodyPoint, LoopClosure};

@@ -6,8 +6,7 @@ use super::MjcfOptions;
 use super::element::Classes;
 use super::place::Place;
 use super::settings::Settings;
-use crate::error::{FileFault, MultibodyError};
-use crate::files::{Element, Visual, fault};
+use crate::files::{Element, Visual};
 use crate::loops::BodyPoint;
 use crate::tree::{BodyIndex, FrameIndex, RigidTreeBuilder};
 
@@ -66,8 +65,4 @@ impl Sites {
     pub(super) fn add(&mut self, name: &str, body: BodyIndex, frame: FrameIndex, at: [f64; 3]) {
         self.sites.push((name.to_owned(), BodyPoint::new(body, at), frame));
     }
-}
-
-pub(super) fn unsupported(element: Element<'_>) -> MultibodyError {
-    fault(element, FileFault::Unsupported { element: element.tag_name().name().to_owned() })
 }

@@ -3,9 +3,8 @@
 use nalgebra::{Matrix3, Vector3};
 use piola_kinematics::Attitude;
 
-use super::element::Styled;
+use super::element::{Styled, unsupported};
 use super::place::{Place, turn_of_z};
-use super::reader::unsupported;
 use crate::error::{FileFault, MultibodyError};
 use crate::files::{Element, elements, fault};
 
