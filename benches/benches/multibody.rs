@@ -2,14 +2,16 @@
 //!
 //! An item is one joint of one state for inverse and forward dynamics, and one state for mass matrices and derivatives. Chains
 //! are of rods of 1 m and 1 kg with axes y and x in turn; the arm UR5 is that of the reference data. `lanes` are batches of 64
-//! states on one core.
+//! states on one core. The kept mass matrix follows a tree of which the last joint alone moves.
 
 use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
-use piola_multibody::{AccelerationDerivatives, BatchWorkspace, DerivativeBlocks, RigidTree, StateBlocks};
+use piola_multibody::{
+    AccelerationDerivatives, BatchWorkspace, DerivativeBlocks, KeptMassMatrix, RigidTree, StateBlocks,
+};
 
 #[path = "../../crates/multibody/tests/it/trees.rs"]
 #[expect(dead_code, reason = "the tests need more trees")]
@@ -58,6 +60,13 @@ fn single(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, tree: &RigidTree
         bencher.iter(|| {
             let _ = black_box(tree.mass_matrix(&mut work, black_box(&q), &mut matrix));
             black_box(&mut matrix);
+        });
+    });
+    let (mut kept, mut moved, last) = (KeptMassMatrix::new(tree), q.clone(), q.len() - 1);
+    group.bench_function(format!("kept_mass_matrix/{name}"), |bencher| {
+        bencher.iter(|| {
+            moved[last] += 1e-3;
+            let _ = black_box(kept.update(black_box(&moved)));
         });
     });
     let mut derivatives = AccelerationDerivatives::new(tree);

@@ -1,5 +1,6 @@
 //! Articulated inertias: of one link with its own, reduced by a joint, moved to the parent.
 
+use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
 
 use crate::link::{Articulated, Link, Pair};
@@ -7,7 +8,8 @@ use crate::spatial::{ENTRY, Matrix, Symmetric, cross, lit, lit_symmetric, skew};
 use crate::turn::Turning;
 use crate::workspace::LinkArticulation;
 
-/// D⁻¹ of a symmetric matrix, and where it is positive definite.
+/// D⁻¹ of a symmetric matrix, and where it is positive definite. Elsewhere the diagonal holds the reciprocal pivots, infinite
+/// where rounding leaves nothing of one: `explain_inertia` finds the joint by the first that is not positive and finite.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn inverse_of<T: Real, const N: usize>(d: [[T; N]; N]) -> ([[T; N]; N], T::Mask) {
     let mut inverse = [[T::zero(); N]; N];
@@ -17,6 +19,8 @@ pub(crate) fn inverse_of<T: Real, const N: usize>(d: [[T; N]; N]) -> ([[T; N]; N
     }
     // D = L diag Lᵀ, then a column of the identity at a time.
     let mut l = d;
+    let rounding = T::lit(8.0 * unit_in_last_place::<T>());
+    let mut reciprocals = [T::zero(); N];
     let mut is_positive = T::Mask::splat(true);
     for j in 0..N {
         for k in 0..j {
@@ -34,8 +38,10 @@ pub(crate) fn inverse_of<T: Real, const N: usize>(d: [[T; N]; N]) -> ([[T; N]; N
                 trace += d[i][i];
             }
         }
-        is_positive = is_positive & (T::lit(8.0 * f64::EPSILON) * trace).less_than(l[j][j]);
+        let least = rounding * trace;
+        is_positive = is_positive & least.less_than(l[j][j]);
         let reciprocal = l[j][j].recip();
+        reciprocals[j] = T::select(l[j][j].abs().at_most(least), T::lit(f64::INFINITY), reciprocal);
         for i in j + 1..N {
             l[i][j] *= reciprocal;
         }
@@ -60,8 +66,9 @@ pub(crate) fn inverse_of<T: Real, const N: usize>(d: [[T; N]; N]) -> ([[T; N]; N
             inverse[i][c] = x[i];
         }
     }
-    // So that the joint is found.
-    inverse[0][0] = T::select(is_positive, inverse[0][0], T::lit(f64::INFINITY));
+    for j in 0..N {
+        inverse[j][j] = T::select(is_positive, inverse[j][j], reciprocals[j]);
+    }
     (inverse, is_positive)
 }
 

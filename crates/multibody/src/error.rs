@@ -30,7 +30,7 @@ pub enum MultibodyError {
     /// Two bodies, two joints or two frames with one name.
     #[error("there are two {what} named `{name}`; names must differ")]
     DuplicateName {
-        /// "bodies", "joints" or "frames".
+        /// "bodies", "joints", "frames", "classes" or "closures".
         what: &'static str,
         /// The name.
         name: String,
@@ -38,7 +38,7 @@ pub enum MultibodyError {
     /// A name that nothing has.
     #[error("there is no {what} named `{name}`")]
     NoSuchName {
-        /// "body", "joint" or "frame".
+        /// "body", "joint", "frame", "closure"; in files also "link", "class" or "site".
         what: &'static str,
         /// The name asked for.
         name: String,
@@ -81,10 +81,10 @@ pub enum MultibodyError {
         /// The condition.
         source: KinematicsError,
     },
-    /// A joint moves nothing that has inertia: its acceleration does not exist.
+    /// A joint moves nothing that has inertia along its motion: its acceleration does not exist.
     #[error(
         "joint `{joint}` moves no inertia (reduced inertia {inertia} along its motion); \
-         give a body beyond it mass, or the joint a reflected inertia"
+         give a body beyond it mass, away from the axis of a rotation, or the joint a reflected inertia"
     )]
     NoInertia {
         /// The joint's name.
@@ -92,7 +92,7 @@ pub enum MultibodyError {
         /// The reduced inertia, kg or kg m².
         inertia: f64,
     },
-    /// A body is so light that a motion of it meets no inertia, although there is mass beyond its joint.
+    /// A body is so light that a motion of it meets no inertia, although joints beyond its own carry mass.
     #[error(
         "a motion of body `{body}` by joint `{joint}` meets no inertia (reduced inertia {inertia}): the body itself has a mass \
          of {mass} kg, the joints beyond it leave it free, and closures do not count here; give the body mass and inertia \
@@ -268,14 +268,6 @@ pub enum FileFault {
         /// The other.
         second: &'static str,
     },
-    /// An element names something that does not exist.
-    #[error("there is no {what} named `{name}`")]
-    NoSuchName {
-        /// "class", "body", "joint" or "site".
-        what: &'static str,
-        /// The name.
-        name: String,
-    },
     /// A number outside its range.
     #[error("`{attribute}` is {value}; it must satisfy {condition}")]
     OutOfRange {
@@ -286,19 +278,13 @@ pub enum FileFault {
         /// The condition.
         condition: &'static str,
     },
-    /// A length of a shape is negative.
+    /// A number that must not be negative.
     #[error("`{attribute}` is {value}; it must not be negative")]
     Negative {
         /// The attribute.
         attribute: &'static str,
         /// Its value.
         value: f64,
-    },
-    /// A joint names a link that does not exist.
-    #[error("there is no link named `{link}`")]
-    NoSuchLink {
-        /// The link.
-        link: String,
     },
     /// A link is the child of two joints.
     #[error("link `{link}` is the child of two joints; a tree has one, and a loop is a constraint")]
@@ -323,7 +309,7 @@ pub enum FileFault {
         /// How many.
         links: usize,
     },
-    /// A link or a joint violates a condition of mechanics.
+    /// An element names something that does not exist, or violates a condition of trees.
     #[error("{source}")]
     Invalid {
         /// The condition.

@@ -113,18 +113,19 @@ impl RigidTree {
 }
 
 impl RigidTree {
-    /// What is wrong with a joint that meets no inertia.
+    /// What is wrong with a joint that meets no inertia: joints beyond it leave it free, or there is none that could carry it.
     #[cold]
     pub(crate) fn no_inertia(&self, link: &Link, inertia: f64) -> MultibodyError {
         let joint = self.joint_of(link);
         let first = self.links.iter().position(|other| other.v == link.v).unwrap_or(0);
         let mut is_beyond = vec![false; self.links.len()];
         is_beyond[first] = true;
+        // Of the links behind other joints than this one.
         let mut mass = 0.0;
         for i in first..self.links.len() {
-            let parent = self.links[i].parent;
-            is_beyond[i] |= parent != 0 && is_beyond[parent - 1];
-            mass += if is_beyond[i] { self.links[i].mass } else { 0.0 };
+            let other = &self.links[i];
+            is_beyond[i] |= other.parent != 0 && is_beyond[other.parent - 1];
+            mass += if is_beyond[i] && other.joint != link.joint { other.mass } else { 0.0 };
         }
         if mass <= 0.0 {
             return MultibodyError::NoInertia { joint, inertia };

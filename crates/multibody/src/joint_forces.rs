@@ -13,7 +13,7 @@ use crate::error::{MultibodyError, check_finite, check_length};
 use crate::link::Kind;
 use crate::tree::RigidTree;
 
-/// What springs hold and what dampers and friction take: see [`RigidTree::joint_powers`].
+/// Energy of the springs; power of the dampers and of Coulomb friction: see [`RigidTree::joint_powers`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointPowers<T> {
     /// Energy of the springs, Σ ½ k (q − q₀)², J.

@@ -27,7 +27,7 @@ pub struct UpdateCounts {
     pub places: usize,
     /// Composite inertias that were summed.
     pub inertias: usize,
-    /// Links whose columns were computed, at least above some joint.
+    /// Links whose columns were computed, whole or in part.
     pub columns: usize,
 }
 
@@ -38,7 +38,7 @@ impl fmt::Display for UpdateCounts {
         write!(
             f,
             "of {links} links: {places} places computed, {} kept; {inertias} composite inertias computed, {} kept; \
-             columns of {columns} computed, of {} kept",
+             columns of {columns} links computed, of {} kept",
             kept(places),
             kept(inertias),
             kept(columns)
@@ -62,16 +62,17 @@ impl fmt::Display for UpdateCounts {
 /// builder.attach(upper, TreeJoint::new("elbow", y).at([0.0, 0.0, -1.0]), "lower", bob)?;
 /// let tree = builder.build()?;
 /// let mut kept = KeptMassMatrix::new(&tree);
-/// kept.update(&tree, &[0.0, 0.0])?;
+/// kept.update(&[0.0, 0.0])?;
 /// assert_eq!(kept.mass_matrix(), [5.0, 2.0, 2.0, 1.0]);
-/// kept.update(&tree, &[0.7, 0.0])?;
+/// kept.update(&[0.7, 0.0])?;
 /// let counts = kept.counts();
 /// assert_eq!((counts.places, counts.inertias, counts.columns), (2, 0, 0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[doc(alias("cache", "incremental"))]
 #[derive(Clone, Debug)]
-pub struct KeptMassMatrix<T = f64> {
+pub struct KeptMassMatrix<'a, T = f64> {
+    tree: &'a RigidTree,
     work: TreeWorkspace<T>,
     q: Vec<T>,
     entries: Vec<T>,
@@ -88,12 +89,13 @@ pub struct KeptMassMatrix<T = f64> {
     counts: UpdateCounts,
 }
 
-impl<T: Real> KeptMassMatrix<T> {
+impl<'a, T: Real> KeptMassMatrix<'a, T> {
     /// Memory for a tree; nothing is computed yet.
     #[must_use]
-    pub fn new(tree: &RigidTree) -> Self {
+    pub fn new(tree: &'a RigidTree) -> Self {
         let (states, n) = (tree.links() + 1, tree.freedoms());
         Self {
+            tree,
             work: tree.workspace(),
             q: vec![T::zero(); tree.coordinates()],
             entries: vec![T::zero(); n * n],
@@ -106,24 +108,26 @@ impl<T: Real> KeptMassMatrix<T> {
         }
     }
 
-    /// Goes to a configuration of the tree for which this was made. The first call computes all.
+    /// Goes to a configuration of the tree. The first call computes all.
     ///
     /// # Errors
-    /// As [`RigidTree::mass_matrix`]. The last configuration stays where the new one is refused.
-    pub fn update(&mut self, tree: &RigidTree, q: &[T]) -> Result<(), MultibodyError> {
-        tree.check_workspace(&self.work)?;
+    /// As [`RigidTree::mass_matrix`]. The last configuration stays where `q` is refused. After an overflow nothing is kept: the
+    /// next call computes all.
+    pub fn update(&mut self, q: &[T]) -> Result<(), MultibodyError> {
+        let tree = self.tree;
         check_length("q", tree.coordinates(), q.len())?;
         check_finite("q", q)?;
         tree.check_quaternions(q)?;
-        self.compare(tree, q);
+        self.compare(q);
         self.is_there = false;
         self.q.copy_from_slice(q);
-        self.follow(tree);
+        self.follow();
+        // A number that is not finite reaches the diagonal.
         let n = tree.freedoms();
-        for j in 0..n {
-            check_finite("mass matrix", &self.entries[j * n + j..=j * n + j])?;
+        if !self.entries.iter().step_by(n + 1).all(|entry| all_finite(&[*entry])) {
+            return check_finite("mass matrix", &self.entries);
         }
-        self.is_there = all_finite(&self.q);
+        self.is_there = true;
         Ok(())
     }
 
@@ -146,7 +150,8 @@ impl<T: Real> KeptMassMatrix<T> {
     }
 
     /// Which joints changed, and what that changes.
-    fn compare(&mut self, tree: &RigidTree, q: &[T]) {
+    fn compare(&mut self, q: &[T]) {
+        let tree = self.tree;
         self.is_reshaped.fill(!self.is_there);
         for (i, link) in tree.links.iter().enumerate() {
             let own = link.q..link.q + link.kind.coordinates();
@@ -160,8 +165,8 @@ impl<T: Real> KeptMassMatrix<T> {
         }
     }
 
-    fn follow(&mut self, tree: &RigidTree) {
-        let Self { work, q, entries, moved, is_reshaped, last_changed, counts, .. } = self;
+    fn follow(&mut self) {
+        let Self { tree, work, q, entries, moved, is_reshaped, last_changed, counts, .. } = self;
         *counts = UpdateCounts { links: tree.links(), ..UpdateCounts::default() };
         let TreeWorkspace { space, rows, composite, forces, .. } = work;
         for (i, link) in tree.links.iter().enumerate() {

@@ -23,8 +23,9 @@
 //!
 //! # References
 //! T. Lee, M. Leok & N. H. McClamroch, *Lie group variational integrators for the full body problem*, Comput. Methods Appl. Mech.
-//! Engrg. 196 (2007) 2907; J. E. Marsden & M. West, *Discrete mechanics and variational integrators*, Acta Numerica 10 (2001) 357; J. Lee, C. K. Liu,
-//! F. C. Park & S. S. Srinivasa, *A linear-time variational integrator for multibody systems*, WAFR (2016).
+//! Engrg. 196 (2007) 2907; J. E. Marsden & M. West, *Discrete mechanics and variational integrators*, Acta Numerica 10 (2001)
+//! 357; J. Lee, C. K. Liu, F. C. Park & S. S. Srinivasa, *A linear-time variational integrator for multibody systems*, WAFR
+//! (2016).
 
 use core::ops::ControlFlow;
 

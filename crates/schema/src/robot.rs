@@ -16,7 +16,7 @@ static BASES: [Word; 2] =
     [word("fixed", "the root stands on the ground"), word("free", "the root moves: `position`, `attitude` and rates")];
 
 static INERTIAS: [Word; 2] = [
-    word("checked", "inertias that no body has are refused, with the line"),
+    word("checked", "inertias that are physically impossible are refused, with the line"),
     word("as-given", "inertias are used as the file has them"),
 ];
 
@@ -27,17 +27,17 @@ static SINGULAR: [Word; 2] = [
 
 table! {
     /// A tree of rigid bodies from a URDF or MJCF file, with the span of time in `[time]`. `[integrator]` may have a
-    /// `tolerance`, 1e-9 when absent: relative, and absolute in m, rad, m/s and rad/s. Limits of joints are not enforced: the summary names the joints that leave them.
-    /// Coulomb friction of joints is not applied.
+    /// `tolerance`, 1e-9 when absent: relative, and absolute in m, rad, m/s and rad/s. Limits of joints are not enforced: the
+    /// summary names the joints that leave them. Coulomb friction of joints is not applied, and motors of the file are not driven.
     pub(super) static ROBOT = "robot" {
         /// The URDF or MJCF file, relative to the scene. MJCF is what has `mujoco` as its first element.
         file: Path, Required;
         /// How the root of a URDF file stands. An MJCF file says it itself.
         base: Kind::Choice(&BASES), Default("\"fixed\"");
-        /// The inertias of the file.
+        /// Whether inertias of the file are checked.
         inertias: Kind::Choice(&INERTIAS), Default("\"checked\"");
-        /// Uniform acceleration of gravity.
-        gravity: vector(D::ACCELERATION), Default("[0.0, 0.0, -9.80665]");
+        /// Uniform acceleration of gravity; when absent that of the MJCF file, or `[0, 0, -9.80665]` with a URDF file.
+        gravity: vector(D::ACCELERATION), Optional;
         /// Place of a free root at the start.
         position: vector(D::LENGTH), Default("[0.0, 0.0, 0.0]");
         /// Attitude of a free root at the start: roll, pitch and yaw as in the file.
@@ -73,10 +73,10 @@ table! {
         force: quantity(D::FORCE, Any), Optional;
         /// Viscous damping, N m s or N s/m; that of the file when absent.
         damping: quantity(D::NONE, NotNegative), Optional;
-        /// Stiffness of a spring, N m/rad or N/m.
-        stiffness: quantity(D::NONE, NotNegative), Default("0.0");
-        /// Coordinate, rad or m, at which the spring is at rest.
-        rest: quantity(D::NONE, Any), Default("0.0");
+        /// Stiffness of a spring, N m/rad or N/m; that of the file when absent.
+        stiffness: quantity(D::NONE, NotNegative), Optional;
+        /// Coordinate, rad or m, at which the spring is at rest; that of the file when absent.
+        rest: quantity(D::NONE, Any), Optional;
         /// Whether the joint stays as it starts.
         locked: Flag, Default("false");
     }

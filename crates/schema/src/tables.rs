@@ -80,7 +80,7 @@ table! {
         start: Kind::Tables(&boxes::START), Optional;
         /// Places in a `[box]` at which the result is recorded.
         probe: Kind::Tables(&boxes::PROBE), Optional;
-        /// A tree of rigid bodies from a URDF file.
+        /// A tree of rigid bodies from a URDF or MJCF file.
         robot: Kind::Table(&robot::ROBOT), Optional;
         /// Joints of a `[robot]`: where they start and what drives them.
         drive: Kind::Tables(&robot::DRIVE), Optional;

@@ -8,7 +8,8 @@ pub(crate) const BLOCK: usize = 8;
 
 /// Vectors of equal length for many states: q, v, v̇ or τ of each.
 ///
-/// Eight states form a block. In a block the first component of all eight comes first, then the second.
+/// Eight states form a block. In a block the first component of all eight comes first, then the second. Places behind the last
+/// state repeat it.
 ///
 /// # Example
 /// ```
@@ -55,8 +56,10 @@ impl StateBlocks {
         self.check(state)?;
         check_length("values", self.components, values.len())?;
         let from = self.place(state);
+        // Lanes behind the last state compute too: with its values they are as right as it.
+        let lanes = if state + 1 == self.states { BLOCK - state % BLOCK } else { 1 };
         for (k, &value) in values.iter().enumerate() {
-            self.values[from + k * BLOCK] = value;
+            self.values[from + k * BLOCK..from + k * BLOCK + lanes].fill(value);
         }
         Ok(())
     }

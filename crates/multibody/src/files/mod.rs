@@ -23,7 +23,7 @@ pub(crate) type Element<'a> = Node<'a, 'a>;
 /// Bytes of a file at most: 16 MiB.
 const LONGEST: u64 = 1 << 24;
 
-/// What becomes of inertias of a file that no body has.
+/// What to do with an inertia of a file that is physically impossible.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FileInertias {
     /// They are refused: a mass that is not positive, a matrix that is not positive definite or violates the triangle
@@ -79,10 +79,16 @@ pub(crate) fn fault(element: Element<'_>, fault: FileFault) -> MultibodyError {
     MultibodyError::InFile { line: line_of(element), fault }
 }
 
-/// A body whose inertia no body has, at its line.
+/// A body whose inertia is physically impossible, at its line.
 pub(crate) fn invalid_inertia(element: Element<'_>, body: &str, source: KinematicsError) -> MultibodyError {
     let wrong = MultibodyError::InvalidInertia { body: body.to_owned(), source };
     fault(element, FileFault::Invalid { source: Box::new(wrong) })
+}
+
+/// An element that names something that does not exist.
+pub(crate) fn no_such_name(element: Element<'_>, what: &'static str, name: &str) -> MultibodyError {
+    let source = Box::new(MultibodyError::NoSuchName { what, name: name.to_owned() });
+    fault(element, FileFault::Invalid { source })
 }
 
 pub(crate) fn elements(of: Element<'_>) -> impl DoubleEndedIterator<Item = Element<'_>> {

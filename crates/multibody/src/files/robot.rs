@@ -5,11 +5,11 @@ use std::path::Path;
 use super::{Visual, document, fault, read_text};
 use crate::error::{FileFault, MultibodyError};
 use crate::loops::ClosedTree;
-use crate::mjcf::{Mjcf, MjcfOptions};
+use crate::mjcf::{FileMotor, Mjcf, MjcfOptions, SkippedElement};
 use crate::tree::RigidTree;
 use crate::urdf::{Urdf, UrdfBase, UrdfOptions};
 
-/// A robot that was read from a URDF or an MJCF file, whichever it is.
+/// A robot that was read from a URDF or an MJCF file, whichever it is. It needs the features `urdf` and `mjcf`.
 ///
 /// # Example
 /// ```
@@ -30,6 +30,12 @@ pub struct RobotFile {
     pub home: Vec<f64>,
     /// What the bodies look like.
     pub visuals: Vec<Visual>,
+    /// Gravity of an MJCF file, m/s², which the tree has too; a URDF file says nothing of it.
+    pub gravity: Option<[f64; 3]>,
+    /// Motors of an MJCF file. Nothing drives them.
+    pub motors: Vec<FileMotor>,
+    /// What was passed over in an MJCF file.
+    pub skipped: Vec<SkippedElement>,
 }
 
 impl RobotFile {
@@ -43,19 +49,21 @@ impl RobotFile {
         let document = document(text)?;
         let root = document.root_element();
         if root.tag_name().name() != "mujoco" {
-            let urdf = Urdf::parse(text, options)?;
+            let urdf = Urdf::of(root, options)?;
             let mut home = vec![0.0; urdf.tree.coordinates()];
             urdf.tree.neutral_configuration(&mut home)?;
             let closed = urdf.with_mimics()?;
-            return Ok(Self { name: urdf.name, closed, home, visuals: urdf.visuals });
+            let Urdf { name, visuals, .. } = urdf;
+            return Ok(Self { name, closed, home, visuals, gravity: None, motors: Vec::new(), skipped: Vec::new() });
         }
         if options.base == UrdfBase::Free {
             let element = "a free base besides the free joints of the file".to_owned();
             return Err(fault(root, FileFault::Unsupported { element }));
         }
-        let mjcf = Mjcf::parse(text, MjcfOptions { inertias: options.inertias })?;
+        let mjcf = Mjcf::of(root, MjcfOptions { inertias: options.inertias })?;
         let closed = mjcf.with_closures()?;
-        Ok(Self { name: mjcf.name, closed, home: mjcf.home, visuals: mjcf.visuals })
+        let Mjcf { name, tree, home, motors, visuals, skipped, .. } = mjcf;
+        Ok(Self { name, closed, home, visuals, gravity: Some(tree.gravity()), motors, skipped })
     }
 
     /// Reads a robot from a file.

@@ -43,14 +43,14 @@ pub enum VisualShape {
         /// Its length, m.
         length: f64,
     },
-    /// A ball.
+    /// A sphere.
     Sphere {
         /// Its radius, m.
         radius: f64,
     },
     /// A mesh in a file.
     Mesh {
-        /// The name that the file gives it.
+        /// The name that the file gives it. Its scale is not read.
         file: String,
     },
 }

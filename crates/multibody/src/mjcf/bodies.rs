@@ -1,19 +1,58 @@
 //! The bodies of a file, one after the other.
 
-use super::element::{Classes, Styled};
+use super::element::{Classes, Styled, unsupported};
 use super::equality::ties;
 use super::geoms::{Geom, inertial, together};
 use super::joints::series;
 use super::place::Place;
-use super::reader::{Placed, Reader, Sites, unsupported};
+use super::reader::{Names, Placed, Reader, Sites};
 use super::settings::{FromGeoms, Settings};
 use super::{Mjcf, MjcfOptions, SkippedElement};
 use crate::error::{FileFault, MultibodyError};
-use crate::files::{Element, document, elements, fault, line_of};
+use crate::files::{Element, elements, fault};
 use crate::tree::{BodyIndex, BodyInertia, RigidTree};
 
 /// Sections that move nothing.
 const SECTIONS: [&str; 6] = ["size", "visual", "statistic", "custom", "sensor", "keyframe"];
+
+/// Of a mesh: its file, and what only pictures and masses need.
+const MESH: [&str; 17] = [
+    "name",
+    "class",
+    "content_type",
+    "file",
+    "scale",
+    "refpos",
+    "refquat",
+    "inertia",
+    "smoothnormal",
+    "maxhullvert",
+    "octreemaxdepth",
+    "vertex",
+    "normal",
+    "texcoord",
+    "face",
+    "material",
+    "user",
+];
+/// Of a site: its place, and what only pictures need.
+const SITE: [&str; 15] = [
+    "name",
+    "class",
+    "pos",
+    "quat",
+    "axisangle",
+    "xyaxes",
+    "zaxis",
+    "euler",
+    "fromto",
+    "type",
+    "group",
+    "size",
+    "material",
+    "rgba",
+    "user",
+];
 
 /// An element of a body, in the frames around it.
 struct Part<'a> {
@@ -28,12 +67,11 @@ struct Pending<'a> {
     parent: usize,
 }
 
-pub(super) fn parse(text: &str, options: MjcfOptions) -> Result<Mjcf, MultibodyError> {
-    let document = document(text)?;
-    let root = document.root_element();
+pub(super) fn parse(root: Element<'_>, options: MjcfOptions) -> Result<Mjcf, MultibodyError> {
     if root.tag_name().name() != "mujoco" {
         return Err(unsupported(root));
     }
+    Styled::plain(root).check(&["model"])?;
     let ground = Placed { name: "world".to_owned(), index: BodyIndex::GROUND, place: Place::identity() };
     let mut reader = Reader {
         options,
@@ -45,6 +83,7 @@ pub(super) fn parse(text: &str, options: MjcfOptions) -> Result<Mjcf, MultibodyE
         home: Vec::new(),
         visuals: Vec::new(),
         skipped: Vec::new(),
+        names: Names::of(root),
         meshes: Vec::new(),
     };
     let (mut worlds, mut equalities, mut actuators) = (Vec::new(), Vec::new(), Vec::new());
@@ -53,12 +92,12 @@ pub(super) fn parse(text: &str, options: MjcfOptions) -> Result<Mjcf, MultibodyE
             "compiler" => reader.settings.compiler(section)?,
             "option" => reader.settings.option(section)?,
             "default" => reader.classes.add(section)?,
-            "asset" => reader.assets(section),
+            "asset" => reader.assets(section)?,
             "worldbody" => worlds.push(section),
             "equality" => equalities.push(section),
             "actuator" => actuators.push(section),
             "contact" => reader.contact(section)?,
-            name if SECTIONS.contains(&name) => reader.skip(section),
+            name if SECTIONS.contains(&name) => reader.skipped.push(section),
             _ => return Err(unsupported(section)),
         }
     }
@@ -71,32 +110,44 @@ pub(super) fn parse(text: &str, options: MjcfOptions) -> Result<Mjcf, MultibodyE
     let Reader { builder, home, visuals, skipped, .. } = reader;
     let tree = builder.with_gravity(gravity)?.build()?;
     let (closures, motors) = ties.on(&tree, &home)?;
-    Ok(Mjcf { name, tree, home, closures, motors, visuals, skipped })
+    Ok(Mjcf { name, tree, home, closures, motors, visuals, skipped: with_lines(skipped) })
+}
+
+/// Elements with their lines, which one pass over the text counts.
+fn with_lines(mut elements: Vec<Element<'_>>) -> Vec<SkippedElement> {
+    elements.sort_by_key(|element| element.range().start);
+    let (mut line, mut counted) = (1, 0);
+    elements
+        .into_iter()
+        .map(|element| {
+            let start = element.range().start;
+            line += element.document().input_text()[counted..start].matches('\n').count();
+            counted = start;
+            SkippedElement { line, element: element.tag_name().name().to_owned() }
+        })
+        .collect()
 }
 
 impl<'a> Reader<'a> {
-    fn skip(&mut self, element: Element<'_>) {
-        let name = element.tag_name().name().to_owned();
-        self.skipped.push(SkippedElement { line: line_of(element), element: name });
-    }
-
-    fn assets(&mut self, section: Element<'_>) {
+    fn assets(&mut self, section: Element<'a>) -> Result<(), MultibodyError> {
         for asset in elements(section) {
             if asset.tag_name().name() != "mesh" {
-                self.skip(asset);
+                self.skipped.push(asset);
                 continue;
             }
+            Styled::plain(asset).check(&MESH)?;
             let file = asset.attribute("file").unwrap_or_default();
             let stem = std::path::Path::new(file).file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
             self.meshes.push((asset.attribute("name").unwrap_or(stem).to_owned(), file.to_owned()));
         }
+        Ok(())
     }
 
-    /// No contact is computed, so that none has to be left out.
-    fn contact(&mut self, section: Element<'_>) -> Result<(), MultibodyError> {
+    /// `exclude` has no effect, because contact is not modelled.
+    fn contact(&mut self, section: Element<'a>) -> Result<(), MultibodyError> {
         for element in elements(section) {
             match element.tag_name().name() {
-                "exclude" => self.skip(element),
+                "exclude" => self.skipped.push(element),
                 _ => return Err(unsupported(element)),
             }
         }
@@ -107,6 +158,7 @@ impl<'a> Reader<'a> {
     /// the bodies wait on a stack.
     fn world(&mut self, world: Element<'a>) -> Result<(), MultibodyError> {
         let mut stack = Vec::new();
+        Styled::plain(world).check(&[])?;
         let parts = self.parts(world, None)?;
         self.sites_of(0, &parts)?;
         for part in parts {
@@ -117,7 +169,7 @@ impl<'a> Reader<'a> {
                     Geom::read(&self.settings, &styled, &part.frame)?;
                 }
                 "site" => {}
-                "camera" | "light" => self.skip(part.element),
+                "camera" | "light" => self.skipped.push(part.element),
                 _ => return Err(unsupported(part.element)),
             }
         }
@@ -168,7 +220,8 @@ impl<'a> Reader<'a> {
         ])?;
         body.check_idle(&[("mocap", &["false"]), ("gravcomp", &["0"])])?;
         let number = self.bodies.len();
-        let name = part.element.attribute("name").map_or_else(|| format!("body {number}"), str::to_owned);
+        let invented = || self.names.invent(&format!("body {number}"));
+        let name = part.element.attribute("name").map_or_else(invented, str::to_owned);
         let class = part.element.attribute("childclass").or(part.class);
         let place = part.frame.then(&self.settings.place(&body)?);
         let parts = self.parts(part.element, class)?;
@@ -181,21 +234,18 @@ impl<'a> Reader<'a> {
                 "geom" => geoms.push(Geom::read(&self.settings, &styled("geom")?, &part.frame)?),
                 "inertial" => given = Some(Styled::plain(part.element)),
                 "body" | "site" => {}
-                "camera" | "light" => {
-                    let element = part.element.tag_name().name().to_owned();
-                    self.skipped.push(SkippedElement { line: line_of(part.element), element });
-                }
+                "camera" | "light" => self.skipped.push(part.element),
                 _ => return Err(unsupported(part.element)),
             }
         }
+        let is_any_weighed = geoms.iter().any(|geom| geom.is_weighed);
         let inertia = match (&given, self.settings.from_geoms) {
-            (Some(given), FromGeoms::Never | FromGeoms::Auto) => {
-                inertial(&self.settings, given, &name, self.options.inertias)?
-            }
-            (_, FromGeoms::Auto | FromGeoms::Always) => together(&body, &name, &geoms)?,
+            (Some(_), FromGeoms::Always) if is_any_weighed => together(&body, &name, &geoms)?,
+            (Some(given), _) => inertial(&self.settings, given, &name, self.options.inertias)?,
+            (None, FromGeoms::Auto | FromGeoms::Always) => together(&body, &name, &geoms)?,
             (None, FromGeoms::Never) => BodyInertia::MASSLESS,
         };
-        let series = series(&self.settings, &name, &place, *parent == 0, &joints)?;
+        let series = series(&self.settings, &mut self.names, &name, &place, *parent == 0, &joints)?;
         self.home.extend(series.home);
         let index = self
             .builder
@@ -223,8 +273,9 @@ impl<'a> Reader<'a> {
     /// Frames for the named sites of a body.
     fn sites_of(&mut self, body: usize, parts: &[Part<'a>]) -> Result<(), MultibodyError> {
         for part in parts.iter().filter(|part| part.element.tag_name().name() == "site") {
-            let Some(name) = part.element.attribute("name") else { continue };
             let styled = self.classes.styled(part.element, part.class, &["site"])?;
+            styled.check(&SITE)?;
+            let Some(name) = part.element.attribute("name") else { continue };
             let place = match styled.numbers("fromto")? {
                 None => self.settings.place(&styled)?,
                 Some([a, b, c, d, e, f]) => {

@@ -1,7 +1,11 @@
 //! Elements with the defaults of their classes.
 
 use crate::error::{FileFault, MultibodyError};
-use crate::files::{Element, elements, fault, missing, numbers, numbers_up_to};
+use crate::files::{Element, elements, fault, missing, no_such_name, numbers, numbers_up_to};
+
+pub(super) fn unsupported(element: Element<'_>) -> MultibodyError {
+    fault(element, FileFault::Unsupported { element: element.tag_name().name().to_owned() })
+}
 
 /// A class of defaults.
 struct Class<'a> {
@@ -52,7 +56,7 @@ impl<'a> Classes<'a> {
         if let Some(name) = element.attribute("class").or(class) {
             next = self.classes.iter().rposition(|class| class.name == name);
             if next.is_none() && name != "main" {
-                return Err(fault(element, FileFault::NoSuchName { what: "class", name: name.to_owned() }));
+                return Err(no_such_name(element, "class", name));
             }
         }
         let mut layers = vec![element];
@@ -141,8 +145,8 @@ impl<'a> Styled<'a> {
     }
 
     /// A number that must not be negative.
-    pub(super) fn not_negative(&self, name: &'static str) -> Result<f64, MultibodyError> {
-        let value = self.number(name, 0.0)?;
+    pub(super) fn not_negative(&self, name: &'static str, default: f64) -> Result<f64, MultibodyError> {
+        let value = self.number(name, default)?;
         if value < 0.0 {
             return Err(self.fault(name, FileFault::Negative { attribute: name, value }));
         }

@@ -3,11 +3,11 @@
 use piola_kinematics::Attitude;
 
 use super::FileMotor;
-use super::element::Styled;
+use super::element::{Styled, unsupported};
 use super::place::Place;
-use super::reader::{Placed, Reader, unsupported};
+use super::reader::{Placed, Reader};
 use crate::error::{FileFault, MultibodyError};
-use crate::files::{Element, elements, fault};
+use crate::files::{Element, elements, fault, no_such_name};
 use crate::loops::{BodyPoint, LoopClosure};
 use crate::tree::{FrameIndex, JointKind, JointPlace, RigidTree};
 
@@ -53,7 +53,8 @@ pub(super) fn ties<'a>(
         if styled.flag("active")? == Some(false) {
             continue;
         }
-        let name = element.attribute("name").map_or_else(|| format!("{kind} {index}"), str::to_owned);
+        let invented = || reader.names.invent(&format!("{kind} {index}"));
+        let name = element.attribute("name").map_or_else(invented, str::to_owned);
         match kind {
             "connect" => ties.closures.push((name, reader.connect(&styled)?)),
             "weld" => {
@@ -88,9 +89,15 @@ impl Reader<'_> {
         Ok(LoopClosure::Point { first, second })
     }
 
+    /// Without a scale for torques a weld turns freely: it is a point.
     fn weld(&mut self, styled: &Styled<'_>, name: &str) -> Result<LoopClosure, MultibodyError> {
+        let holds_attitude = 0.0 < styled.not_negative("torquescale", 1.0)?;
         if let Some([first, second]) = self.sites_of_tie(styled)? {
-            return Ok(LoopClosure::Frame { first: first.1, second: second.1 });
+            return Ok(if holds_attitude {
+                LoopClosure::Frame { first: first.1, second: second.1 }
+            } else {
+                LoopClosure::Point { first: first.0, second: second.0 }
+            });
         }
         let [first, second] = self.bodies_of_tie(styled)?;
         let anchor = Place::at(styled.numbers("anchor")?.unwrap_or_default());
@@ -102,9 +109,14 @@ impl Reader<'_> {
             _ => first.place.seen(&second.place.then(&anchor)),
         };
         let (first, second) = (first.index, second.index);
+        if !holds_attitude {
+            let [first, second] = [BodyPoint::new(first, relative.origin), BodyPoint::new(second, anchor.origin)];
+            return Ok(LoopClosure::Point { first, second });
+        }
         let mut frame = |body, end: &str, place: &Place| {
+            let name = self.names.invent(&format!("{name} {end}"));
             self.builder
-                .add_frame(body, format!("{name} {end}"), place.origin, place.attitude)
+                .add_frame(body, name, place.origin, place.attitude)
                 .map_err(|source| fault(styled.element(), FileFault::Invalid { source: Box::new(source) }))
         };
         let first = frame(first, "on the first body", &relative)?;
@@ -119,21 +131,19 @@ impl Reader<'_> {
         let site = |attribute| {
             let name = styled.required(attribute)?;
             let found = self.sites.sites.iter().find(|(other, ..)| other == name);
-            found.map(|(_, point, frame)| (*point, *frame)).ok_or_else(|| no_such(styled, "site", name))
+            found.map(|(_, point, frame)| (*point, *frame)).ok_or_else(|| no_such_name(styled.element(), "site", name))
         };
         Ok(Some([site("site1")?, site("site2")?]))
     }
 
     fn bodies_of_tie(&self, styled: &Styled<'_>) -> Result<[&Placed; 2], MultibodyError> {
-        let body =
-            |name: &str| self.bodies.iter().find(|body| body.name == name).ok_or_else(|| no_such(styled, "body", name));
+        let body = |name: &str| {
+            let found = self.bodies.iter().find(|body| body.name == name);
+            found.ok_or_else(|| no_such_name(styled.element(), "body", name))
+        };
         let second = styled.text("body2").map_or("world", |(name, _)| name);
         Ok([body(styled.required("body1")?)?, body(second)?])
     }
-}
-
-fn no_such(styled: &Styled<'_>, what: &'static str, name: &str) -> MultibodyError {
-    fault(styled.element(), FileFault::NoSuchName { what, name: name.to_owned() })
 }
 
 /// The joint of a name, which must have one coordinate, and its coordinate where the file places it.
@@ -145,7 +155,7 @@ fn joint_of<'t>(
 ) -> Result<(&'t JointPlace, f64), MultibodyError> {
     let name = styled.required(attribute)?;
     let found = tree.joints().iter().find(|place| place.joint.name == name);
-    let place = found.ok_or_else(|| no_such(styled, "joint", name))?;
+    let place = found.ok_or_else(|| no_such_name(styled.element(), "joint", name))?;
     match place.joint.kind {
         JointKind::Revolute { .. } | JointKind::Prismatic { .. } => Ok((place, home[place.first_coordinate])),
         _ => {
@@ -165,7 +175,9 @@ impl Ties<'_> {
         for (name, styled) in self.joints {
             let (follower, at) = joint_of(tree, home, &styled, "joint1")?;
             let (coefficients, count) = styled.numbers_up_to::<5>("polycoef")?;
-            let [constant, ratio, higher @ ..] = if count == 0 { [0.0, 1.0, 0.0, 0.0, 0.0] } else { coefficients };
+            // Coefficients that are not written are 0 1 0 0 0.
+            let [constant, ratio, higher @ ..] = coefficients;
+            let ratio = if count < 2 { 1.0 } else { ratio };
             let follower = follower.first_freedom;
             let closure = if styled.text("joint2").is_some() {
                 if let Some(&value) = higher.iter().find(|x| 0.0 < x.abs()) {

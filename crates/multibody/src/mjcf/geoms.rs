@@ -7,7 +7,7 @@ use super::element::Styled;
 use super::place::{Place, turn_of_z};
 use super::settings::Settings;
 use crate::error::{FileFault, MultibodyError};
-use crate::files::{FileInertias, Visual, VisualShape, fault, invalid_inertia, line_of, turned};
+use crate::files::{Element, FileInertias, Visual, VisualShape, fault, invalid_inertia, turned};
 use crate::spatial::{dot, scaled, sub};
 use crate::tree::BodyInertia;
 
@@ -64,17 +64,18 @@ enum Shape {
 }
 
 /// A geom as a part of its body.
-pub(super) struct Geom {
+pub(super) struct Geom<'a> {
+    element: Element<'a>,
     place: Place,
     shape: Shape,
-    line: usize,
     /// Mass, kg; nothing for a mesh whose mass follows from its density.
     mass: Option<f64>,
-    is_weighed: bool,
+    /// Whether its group is among those that have mass.
+    pub(super) is_weighed: bool,
 }
 
-impl Geom {
-    pub(super) fn read(settings: &Settings, geom: &Styled<'_>, frame: &Place) -> Result<Self, MultibodyError> {
+impl<'a> Geom<'a> {
+    pub(super) fn read(settings: &Settings, geom: &Styled<'a>, frame: &Place) -> Result<Self, MultibodyError> {
         geom.check(&[&READ[..], &IDLE].concat())?;
         geom.check_idle(&[("shellinertia", &["false"])])?;
         let mut place = settings.place(geom)?;
@@ -144,11 +145,11 @@ impl Geom {
             Shape::Mesh(_) => {}
         }
         let [first, last] = settings.groups;
-        let line = line_of(geom.element());
-        Ok(Self { place: frame.then(&place), shape, line, mass, is_weighed: first <= group && group <= last })
+        let (element, place) = (geom.element(), frame.then(&place));
+        Ok(Self { element, place, shape, mass, is_weighed: first <= group && group <= last })
     }
 
-    /// The shape for pictures: of capsules a cylinder and two balls.
+    /// The shape for pictures: of capsules a cylinder and two spheres.
     pub(super) fn add_visuals(&self, body: &str, mesh_file: impl Fn(&str) -> String, out: &mut Vec<Visual>) {
         let mut add = |along: f64, shape| {
             let origin = self.place.point([0.0, 0.0, along]);
@@ -173,7 +174,7 @@ impl Geom {
 }
 
 /// The inertia of a body of its geoms together.
-pub(super) fn together(body: &Styled<'_>, name: &str, geoms: &[Geom]) -> Result<BodyInertia, MultibodyError> {
+pub(super) fn together(body: &Styled<'_>, name: &str, geoms: &[Geom<'_>]) -> Result<BodyInertia, MultibodyError> {
     let (mut mass, mut first) = (0.0, [0.0; 3]);
     let mut parts: Vec<(f64, Inertia, [f64; 3], Attitude<f64>)> = Vec::new();
     for geom in geoms.iter().filter(|geom| geom.is_weighed) {
@@ -189,7 +190,7 @@ pub(super) fn together(body: &Styled<'_>, name: &str, geoms: &[Geom]) -> Result<
             (Some(part), _) if part <= 0.0 => {}
             _ => {
                 let element = "inertia of a geom of type mesh".to_owned();
-                return Err(MultibodyError::InFile { line: geom.line, fault: FileFault::Unsupported { element } });
+                return Err(fault(geom.element, FileFault::Unsupported { element }));
             }
         }
     }

@@ -5,6 +5,7 @@ use piola_kinematics::Attitude;
 
 use super::element::Styled;
 use super::place::Place;
+use super::reader::Names;
 use super::settings::Settings;
 use crate::error::{FileFault, MultibodyError};
 use crate::files::fault;
@@ -50,6 +51,7 @@ fn kind_of<'a>(joint: &Styled<'a>) -> &'a str {
 /// The series of a body that stands at `place` in its parent. Joints come with the frames in the body that they stand in.
 pub(super) fn series(
     settings: &Settings,
+    names: &mut Names,
     body: &str,
     place: &Place,
     is_on_ground: bool,
@@ -61,7 +63,7 @@ pub(super) fn series(
             let element = "free joint in a series or below another body".to_owned();
             return Err(fault(free.element(), FileFault::Unsupported { element }));
         }
-        let mut joint = TreeJoint::new(name_of(free, body, 0), JointKind::Free);
+        let mut joint = TreeJoint::new(name_of(free, names, body, 0), JointKind::Free);
         data(settings, free, &mut joint)?;
         let q = place.attitude;
         out.home.extend([q.w, q.x, q.y, q.z]);
@@ -103,7 +105,8 @@ pub(super) fn series(
                 out.home.extend([1.0, 0.0, 0.0, 0.0]);
             }
         }
-        let mut joint = TreeJoint::new(name_of(styled, body, index), kind).at(stands.origin).turned(stands.attitude);
+        let name = name_of(styled, names, body, index);
+        let mut joint = TreeJoint::new(name, kind).at(stands.origin).turned(stands.attitude);
         data(settings, styled, &mut joint)?;
         out.joints.push(joint);
         before = anchor;
@@ -112,14 +115,15 @@ pub(super) fn series(
     // The body's frame stands where the last joint does, less its anchor.
     let rest = outer.then(&Place::at(scaled(-1.0, before)));
     if joints.is_empty() || rest.origin.iter().any(|x| 0.0 < x.abs()) {
-        out.joints
-            .push(TreeJoint::new(format!("frame of {body}"), JointKind::Fixed).at(rest.origin).turned(rest.attitude));
+        let name = names.invent(&format!("frame of {body}"));
+        out.joints.push(TreeJoint::new(name, JointKind::Fixed).at(rest.origin).turned(rest.attitude));
     }
     Ok(out)
 }
 
-fn name_of(joint: &Styled<'_>, body: &str, index: usize) -> String {
-    joint.text("name").map_or_else(|| format!("{body} joint {}", index + 1), |(name, _)| name.to_owned())
+fn name_of(joint: &Styled<'_>, names: &mut Names, body: &str, index: usize) -> String {
+    let invented = || names.invent(&format!("{body} joint {}", index + 1));
+    joint.text("name").map_or_else(invented, |(name, _)| name.to_owned())
 }
 
 /// The axis as a unit vector; the error of one without direction is for those joints that need it.
@@ -137,25 +141,32 @@ fn axis_of(joint: &Styled<'_>) -> Result<Result<[f64; 3], MultibodyError>, Multi
 fn data(settings: &Settings, styled: &Styled<'_>, joint: &mut TreeJoint) -> Result<(), MultibodyError> {
     styled.check(&[&READ[..], &IDLE].concat())?;
     styled.check_idle(&[("springdamper", &["0"]), ("springyield", &["0"]), ("align", &["false", "auto"])])?;
-    joint.armature = styled.not_negative("armature")?;
-    joint.damping = styled.not_negative("damping")?;
-    joint.friction = styled.not_negative("frictionloss")?;
+    joint.armature = styled.not_negative("armature", 0.0)?;
+    joint.damping = styled.not_negative("damping", 0.0)?;
+    joint.friction = styled.not_negative("frictionloss", 0.0)?;
     let unit = if kind_of(styled) == "hinge" { settings.angle } else { 1.0 };
     if joint.kind.coordinates() != joint.kind.freedoms() {
         styled.check_idle(&[("stiffness", &["0"])])?;
+        if joint.kind == JointKind::Free {
+            styled.check_idle(&[("armature", &["0"])])?;
+        }
         if styled.range("range", "limited", settings.autolimits)?.is_some() {
             let element = "range of a ball or free joint".to_owned();
             return Err(styled.fault("range", FileFault::Unsupported { element }));
         }
         return Ok(());
     }
-    joint.stiffness = styled.not_negative("stiffness")?;
+    joint.stiffness = styled.not_negative("stiffness", 0.0)?;
     joint.rest = unit * styled.number("springref", 0.0)?;
     if let Some(range) = styled.range("range", "limited", settings.autolimits)? {
         joint.limits = range.map(|limit| unit * limit);
     }
     if let Some(range) = styled.range("actuatorfrcrange", "actuatorfrclimited", settings.autolimits)? {
-        joint.largest_effort = range[0].abs().max(range[1].abs());
+        if 0.0 < (range[0] + range[1]).abs() {
+            let element = "an actuatorfrcrange that is not symmetric".to_owned();
+            return Err(styled.fault("actuatorfrcrange", FileFault::Unsupported { element }));
+        }
+        joint.largest_effort = range[1];
     }
     Ok(())
 }

@@ -2,18 +2,22 @@
 //!
 //! | element | read as |
 //! |---|---|
-//! | `compiler` | `angle`, `autolimits`, `eulerseq`, `inertiafromgeom`, `inertiagrouprange`; local coordinates alone |
+//! | `compiler` | `angle`, `autolimits`, `eulerseq`, `inertiafromgeom`, `inertiagrouprange`; only local coordinates |
 //! | `option` | `gravity`; a medium (`density`, `viscosity`) is refused |
-//! | `default` | what elements of a class have when they do not say it |
+//! | `default` | default attributes of a class |
 //! | `worldbody`, `body`, `frame` | bodies, each in its parent's frame |
 //! | `inertial`, or else the `geom`s of a body | its inertia: sphere, capsule, cylinder, box, ellipsoid |
 //! | `joint`, `freejoint` | a joint; several of a body are in series |
+//! | `asset` with `mesh` | names of files, for pictures: scale and pose of a mesh are not read |
 //! | `site` with a name | a frame |
 //! | `equality` with `connect`, `weld`, `joint` | closures, which hold exactly; a `joint` must be linear |
 //! | `actuator` with `motor` at a hinge or slide | a [`FileMotor`] |
 //!
-//! What moves nothing is passed over and listed in [`Mjcf::skipped`]. Any other element or attribute is refused with its line:
-//! tendons, other actuators, pairs of contacts, meshes that would have to be weighed. Contact between geoms is not modelled.
+//! Elements that move nothing are passed over with their attributes and listed in [`Mjcf::skipped`]. Any other element or
+//! attribute is refused with its line: tendons, other actuators, pairs of contacts, mesh geoms whose mass is needed. Attributes
+//! of contact, pictures and MuJoCo's solver have no effect. Contact between geoms is not modelled.
+//!
+//! Bodies, joints and closures without a name get one, as `body 3`, unlike any name of the file.
 //!
 //! Bodies, joints and coordinates stand in the order of the file. The configuration differs from MuJoCo's in free joints alone:
 //! quaternion and then position here, velocities in the body's axes.
@@ -34,7 +38,7 @@ mod settings;
 use std::path::Path;
 
 use crate::error::MultibodyError;
-use crate::files::{FileInertias, Visual, read_text};
+use crate::files::{Element, FileInertias, Visual, document, read_text};
 use crate::loops::{ClosedTree, LoopClosure};
 use crate::tree::RigidTree;
 
@@ -47,7 +51,7 @@ use crate::tree::RigidTree;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MjcfOptions {
-    /// What becomes of impossible inertias of `inertial`.
+    /// What to do with an `inertial` that is physically impossible.
     pub inertias: FileInertias,
 }
 
@@ -108,9 +112,10 @@ pub struct Mjcf {
     pub closures: Vec<(String, LoopClosure)>,
     /// Motors.
     pub motors: Vec<FileMotor>,
-    /// What the bodies look like: boxes, cylinders, balls, capsules as one of the second and two of the third, and meshes.
+    /// What the bodies look like: boxes, cylinders, spheres and meshes. A capsule is given as one cylinder and two spheres.
+    /// Ellipsoids and planes are left out.
     pub visuals: Vec<Visual>,
-    /// What was passed over.
+    /// What was passed over, in the order of the lines.
     pub skipped: Vec<SkippedElement>,
 }
 
@@ -121,7 +126,12 @@ impl Mjcf {
     /// [`MultibodyError::InFile`] with the line, for all that the text violates; else as
     /// [`RigidTreeBuilder::build`](crate::RigidTreeBuilder::build).
     pub fn parse(text: &str, options: MjcfOptions) -> Result<Self, MultibodyError> {
-        bodies::parse(text, options)
+        Self::of(document(text)?.root_element(), options)
+    }
+
+    /// The tree of the first element of a document.
+    pub(crate) fn of(root: Element<'_>, options: MjcfOptions) -> Result<Self, MultibodyError> {
+        bodies::parse(root, options)
     }
 
     /// Reads a tree from a file.

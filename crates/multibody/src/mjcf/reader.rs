@@ -1,11 +1,12 @@
 //! What is read of a file so far.
 
+use std::collections::HashSet;
+
+use super::MjcfOptions;
 use super::element::Classes;
 use super::place::Place;
 use super::settings::Settings;
-use super::{MjcfOptions, SkippedElement};
-use crate::error::{FileFault, MultibodyError};
-use crate::files::{Element, Visual, fault};
+use crate::files::{Element, Visual};
 use crate::loops::BodyPoint;
 use crate::tree::{BodyIndex, FrameIndex, RigidTreeBuilder};
 
@@ -28,9 +29,30 @@ pub(super) struct Reader<'a> {
     pub(super) sites: Sites,
     pub(super) home: Vec<f64>,
     pub(super) visuals: Vec<Visual>,
-    pub(super) skipped: Vec<SkippedElement>,
+    pub(super) skipped: Vec<Element<'a>>,
+    pub(super) names: Names,
     /// Names and files of meshes.
     pub(super) meshes: Vec<(String, String)>,
+}
+
+/// The names of a file, and those that were made up for what has none.
+pub(super) struct Names(HashSet<String>);
+
+impl Names {
+    pub(super) fn of(root: Element<'_>) -> Self {
+        Self(root.descendants().filter_map(|element| element.attribute("name")).map(str::to_owned).collect())
+    }
+
+    /// A name that nothing has yet: the one given, or that with a number behind it.
+    pub(super) fn invent(&mut self, name: &str) -> String {
+        let mut invented = name.to_owned();
+        let mut count = 1;
+        while !self.0.insert(invented.clone()) {
+            count += 1;
+            invented = format!("{name} ({count})");
+        }
+        invented
+    }
 }
 
 /// The named sites.
@@ -43,8 +65,4 @@ impl Sites {
     pub(super) fn add(&mut self, name: &str, body: BodyIndex, frame: FrameIndex, at: [f64; 3]) {
         self.sites.push((name.to_owned(), BodyPoint::new(body, at), frame));
     }
-}
-
-pub(super) fn unsupported(element: Element<'_>) -> MultibodyError {
-    fault(element, FileFault::Unsupported { element: element.tag_name().name().to_owned() })
 }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use piola_kinematics::Attitude;
 
-use super::element::Styled;
+use super::element::{Styled, unsupported};
 use super::place::{Place, turn_of_z};
 use crate::error::{FileFault, MultibodyError};
 use crate::files::{Element, elements, fault};
@@ -42,6 +42,70 @@ const READ: [&str; 11] = [
     "settotalmass",
     "balanceinertia",
     "alignfree",
+];
+
+/// Of the option: gravity and a medium; wind, which needs one; the rest is of solvers, contact and sensors.
+const OPTION: [&str; 30] = [
+    "gravity",
+    "density",
+    "viscosity",
+    "wind",
+    "timestep",
+    "impratio",
+    "tolerance",
+    "ls_tolerance",
+    "noslip_tolerance",
+    "ccd_tolerance",
+    "mpr_tolerance",
+    "sleep_tolerance",
+    "magnetic",
+    "o_margin",
+    "o_solref",
+    "o_solimp",
+    "o_friction",
+    "integrator",
+    "cone",
+    "jacobian",
+    "solver",
+    "iterations",
+    "ls_iterations",
+    "noslip_iterations",
+    "ccd_iterations",
+    "mpr_iterations",
+    "sdf_iterations",
+    "sdf_initpoints",
+    "apirate",
+    "collision",
+];
+/// Of the flags: the first nine change the mechanics.
+const FLAG: [&str; 27] = [
+    "gravity",
+    "constraint",
+    "equality",
+    "frictionloss",
+    "limit",
+    "passive",
+    "spring",
+    "damper",
+    "actuation",
+    "contact",
+    "clampctrl",
+    "warmstart",
+    "filterparent",
+    "refsafe",
+    "sensor",
+    "midphase",
+    "eulerdamp",
+    "autoreset",
+    "nativeccd",
+    "island",
+    "override",
+    "energy",
+    "fwdinv",
+    "invdiscrete",
+    "sensornoise",
+    "multiccd",
+    "sleep",
 ];
 
 /// Where the inertia of a body comes from.
@@ -120,10 +184,15 @@ impl Settings {
     /// Reads the element `option`: gravity, and that nothing else acts.
     pub(super) fn option(&mut self, element: Element<'_>) -> Result<(), MultibodyError> {
         let option = Styled::plain(element);
+        option.check(&OPTION)?;
         option.check_idle(&[("density", &["0"]), ("viscosity", &["0"])])?;
         self.gravity = option.numbers("gravity")?.unwrap_or(self.gravity);
-        for flags in elements(element).filter(|inner| inner.tag_name().name() == "flag") {
+        for flags in elements(element) {
+            if flags.tag_name().name() != "flag" {
+                return Err(unsupported(flags));
+            }
             let flags = Styled::plain(flags);
+            flags.check(&FLAG)?;
             let enabled: &[&str] = &["enable"];
             let parts = ["constraint", "equality", "frictionloss", "limit", "passive", "spring", "damper", "actuation"];
             flags.check_idle(&parts.map(|part| (part, enabled)))?;

@@ -117,7 +117,8 @@ pub struct TreeJoint {
     pub origin: [f64; 3],
     /// The axes of its frame in the parent's frame.
     pub attitude: Attitude<f64>,
-    /// Inertia of the motor as reflected at the joint, added to the diagonal of the mass matrix, kg m² or kg.
+    /// Inertia of the motor as reflected at the joint, added to the diagonal of the mass matrix, kg m² or kg; zero for a free
+    /// joint.
     pub armature: f64,
     /// Viscous damping, N m s or N s/m.
     pub damping: f64,
@@ -168,7 +169,7 @@ impl TreeJoint {
         self
     }
 
-    /// Sets the reflected inertia of the motor (kg m² or kg), for each freedom.
+    /// Sets the reflected inertia of the motor (kg m² or kg), for each freedom. A free joint has none.
     #[must_use]
     pub const fn with_armature(mut self, armature: f64) -> Self {
         self.armature = armature;
@@ -226,6 +227,10 @@ impl TreeJoint {
             if !(0.0 <= value && value < f64::INFINITY) {
                 return invalid(quantity, value, "0 ≤ x < ∞");
             }
+        }
+        // In axes that turn it would also need ω × (armature v), which no pass has.
+        if 0.0 < self.armature && self.kind == JointKind::Free {
+            return invalid("reflected inertia", self.armature, "x = 0 for a free joint");
         }
         if !self.rest.is_finite() {
             return invalid("coordinate at rest", self.rest, "|x| < ∞");

@@ -6,7 +6,7 @@
 //! | `joint` of type revolute, continuous, prismatic, fixed, floating | the joint; planar joints are refused |
 //! | `limit`, `dynamics` | data of the joint |
 //! | `mimic` | a [`Mimic`], for a constraint |
-//! | `visual` | a [`Visual`], for pictures; one without geometry or of another shape is left out |
+//! | `visual` | a [`Visual`], for pictures, without the scale of a mesh; one without geometry or of another shape is left out |
 //! | `collision`, `material`, `transmission`, `gazebo`, `safety_controller`, `calibration` | nothing: they move nothing |
 //!
 //! Any other element is refused with its line.
@@ -16,7 +16,7 @@ mod parse;
 use std::path::Path;
 
 use crate::error::MultibodyError;
-use crate::files::{FileInertias, Visual, read_text};
+use crate::files::{Element, FileInertias, Visual, document, read_text};
 use crate::loops::{ClosedTree, LoopClosure};
 use crate::tree::RigidTree;
 
@@ -42,7 +42,7 @@ pub enum UrdfBase {
 pub struct UrdfOptions {
     /// How the root stands.
     pub base: UrdfBase,
-    /// What becomes of impossible inertias.
+    /// What to do with an inertia that is physically impossible.
     pub inertias: FileInertias,
 }
 
@@ -95,7 +95,12 @@ impl Urdf {
     /// [`RigidTreeBuilder::attach`](crate::RigidTreeBuilder::attach) and
     /// [`build`](crate::RigidTreeBuilder::build).
     pub fn parse(text: &str, options: UrdfOptions) -> Result<Self, MultibodyError> {
-        parse::parse(text, options)
+        Self::of(document(text)?.root_element(), options)
+    }
+
+    /// The tree of the first element of a document.
+    pub(crate) fn of(root: Element<'_>, options: UrdfOptions) -> Result<Self, MultibodyError> {
+        parse::parse(root, options)
     }
 
     /// The tree with a gear for each mimic joint.

@@ -5,7 +5,7 @@ use piola_kinematics::Attitude;
 use super::{Mimic, Urdf, UrdfBase, UrdfOptions};
 use crate::error::{FileFault, MultibodyError};
 use crate::files::{
-    Element, Visual, VisualShape, attribute, document, elements, fault, find, invalid_inertia, number, required,
+    Element, Visual, VisualShape, attribute, elements, fault, find, invalid_inertia, no_such_name, number, required,
     turned, vector,
 };
 use crate::tree::{BodyIndex, BodyInertia, JointKind, RigidTree, RigidTreeBuilder, TreeJoint};
@@ -24,10 +24,9 @@ struct Tie<'a> {
     child: &'a str,
 }
 
-pub(super) fn parse(text: &str, options: UrdfOptions) -> Result<Urdf, MultibodyError> {
-    let document = document(text)?;
+/// The tree of a document's first element.
+pub(super) fn parse(robot: Element<'_>, options: UrdfOptions) -> Result<Urdf, MultibodyError> {
     let reader = Reader { options };
-    let robot = document.root_element();
     if robot.tag_name().name() != "robot" {
         return Err(fault(robot, FileFault::Unsupported { element: robot.tag_name().name().to_owned() }));
     }
@@ -47,7 +46,7 @@ impl Reader {
         for tie in &ties {
             for link in [tie.parent, tie.child] {
                 if links.iter().all(|(name, _)| *name != link) {
-                    return Err(fault(tie.element, FileFault::NoSuchLink { link: link.to_owned() }));
+                    return Err(no_such_name(tie.element, "link", link));
                 }
             }
             let twice = ties.iter().filter(|other| other.child == tie.child).nth(1);
@@ -131,7 +130,7 @@ impl Reader {
             joint.friction = number(dynamics, "friction", Some(0.0))?;
         }
         let Some(&(name, link)) = links.iter().find(|(name, _)| *name == tie.child) else {
-            return Err(fault(element, FileFault::NoSuchLink { link: tie.child.to_owned() }));
+            return Err(no_such_name(element, "link", tie.child));
         };
         builder.attach(parent, joint, name, self.inertia(name, link)?)
     }

@@ -21,13 +21,15 @@ fn evaluations_allocate_nothing() {
     let mut regressor = vec![0.0; n * tree.bodies() * INERTIAL_PARAMETERS];
     let mut derivatives = AccelerationDerivatives::new(&tree);
     let mut batch = BatchWorkspace::new(&tree, 1);
-    let mut blocks = StateBlocks::new(n, 8);
-    let mut places = StateBlocks::new(tree.coordinates(), 8);
-    for i in 0..8 {
+    // Not a multiple of eight: the last block is not full.
+    let states = 21;
+    let mut blocks = StateBlocks::new(n, states);
+    let mut places = StateBlocks::new(tree.coordinates(), states);
+    for i in 0..states {
         places.set(i, &state.q).unwrap();
     }
     let zeros = blocks.clone();
-    let (mut matrices, mut all) = (StateBlocks::new(n * n, 8), DerivativeBlocks::new(&tree, 8));
+    let (mut matrices, mut all) = (StateBlocks::new(n * n, states), DerivativeBlocks::new(&tree, states));
     // The first call makes the memory for matrices.
     tree.forward_dynamics_derivatives_of_states(&mut batch, &places, &zeros, &zeros, &mut all).unwrap();
     let body = tree.body("body 10").unwrap();

@@ -31,7 +31,7 @@ fn rotor_with_coulomb_friction_comes_to_rest_as_its_closed_form() {
     }
 }
 
-/// Energy of the tree and its springs changes by the powers alone: a third coordinate integrates them.
+/// Energy of the tree and its springs changes by the powers alone: Gauss's rule integrates the powers.
 #[test]
 fn energy_falls_by_the_powers_of_dampers_and_friction() {
     let mut builder = RigidTree::builder();

@@ -1,7 +1,9 @@
 //! MJCF files: two models against `MuJoCo`, and what is refused, with its line.
 
-use piola_multibody::{FileFault, FileInertias, JointKind, Mjcf, MjcfOptions, MultibodyError, VisualShape};
-use piola_testkit::{Tol, assert_close, golden};
+use piola_multibody::{
+    FileFault, FileInertias, JointKind, LoopClosure, Mjcf, MjcfOptions, MultibodyError, VisualShape,
+};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale, golden};
 use serde_json::Value;
 
 const ROUNDING: Tol = Tol::stated(1e-12, "the reference was computed in double precision");
@@ -27,12 +29,18 @@ fn models_move_and_weigh_as_in_mujoco() {
             let [q, v] = ["q", "v"].map(|key| golden::vector(&state[key]));
             let mut mass_matrix = vec![0.0; n * n];
             tree.mass_matrix(&mut work, &q, &mut mass_matrix).unwrap();
+            // Rows are in kg and kg m²: each entry over √(Mᵢᵢ Mⱼⱼ), and forces over √Mᵢᵢ.
+            let root: Vec<f64> = (0..n).map(|i| mass_matrix[i * n + i].sqrt()).collect();
+            let scaled = |values: &[f64]| values.iter().zip(&root).map(|(x, root)| x / root).collect::<Vec<_>>();
             let rows = golden::matrix(&state["mass_matrix"]).concat();
-            assert_close("mass matrix", &mass_matrix, &rows, ROUNDING);
+            for (j, (found, expected)) in mass_matrix.chunks(n).zip(rows.chunks(n)).enumerate() {
+                let over = |row: &[f64]| scaled(row).iter().map(|x| x / root[j]).collect::<Vec<_>>();
+                assert_close_at_scale("mass matrix", &over(found), &over(expected), 1.0, ROUNDING);
+            }
             tree.bias_forces(&mut work, &q, &v, &mut out).unwrap();
-            assert_close("bias", &out, &golden::vector(&state["bias"]), ROUNDING);
+            assert_close("bias", &scaled(&out), &scaled(&golden::vector(&state["bias"])), ROUNDING);
             tree.gravity_forces(&mut work, &q, &mut out).unwrap();
-            assert_close("gravity", &out, &golden::vector(&state["gravity"]), ROUNDING);
+            assert_close("gravity", &scaled(&out), &scaled(&golden::vector(&state["gravity"])), ROUNDING);
             tree.forward_kinematics(&mut work, &q).unwrap();
             let places = state["positions"].as_array().unwrap().iter().zip(state["rotations"].as_array().unwrap());
             let moving = tree.joints().iter().map(|place| place.child);
@@ -152,12 +160,130 @@ fn what_is_not_read_is_refused_with_its_line() {
         ("", "<composite/>", "", 5, "composite"),
         ("", "<joint springdamper=\"1 2\"/><geom size=\"1\"/>", "", 5, "springdamper=\"1 2\" of joint"),
         ("<default><joint speed=\"1\"/></default>", HINGE, "", 2, "attribute speed of joint"),
+        ("<option speed=\"1\"/>", HINGE, "", 2, "attribute speed of option"),
+        ("<option><flags/></option>", HINGE, "", 2, "flags"),
+        ("<option><flag speed=\"enable\"/></option>", HINGE, "", 2, "attribute speed of flag"),
+        ("<asset><mesh file=\"a\" speed=\"1\"/></asset>", HINGE, "", 2, "attribute speed of mesh"),
+        ("", "<joint/><geom size=\"1\"/><site speed=\"1\"/>", "", 5, "attribute speed of site"),
+        ("", "<joint type=\"free\" armature=\"0.1\"/><geom size=\"1\"/>", "", 5, "armature=\"0.1\" of joint"),
+        (
+            "",
+            "<joint actuatorfrcrange=\"-1 100\"/><geom size=\"1\"/>",
+            "",
+            5,
+            "an actuatorfrcrange that is not symmetric",
+        ),
     ];
     for (before, body, behind, line, element) in cases {
         let expected = (line, FileFault::Unsupported { element: element.to_owned() });
         assert_eq!(fault(&model(before, body, behind)), expected);
     }
     assert_eq!(fault("<robot/>"), (1, FileFault::Unsupported { element: "robot".to_owned() }));
+    let of_root = FileFault::Unsupported { element: "attribute speed of mujoco".to_owned() };
+    assert_eq!(fault("<mujoco speed=\"1\"/>"), (1, of_root));
+    let of_world = FileFault::Unsupported { element: "attribute pos of worldbody".to_owned() };
+    assert_eq!(fault("<mujoco><worldbody pos=\"1\"/></mujoco>"), (1, of_world));
+}
+
+fn read(text: &str) -> Mjcf {
+    Mjcf::parse(text, MjcfOptions::default()).unwrap()
+}
+
+/// Two hinges at given angles; coefficients that are not written are 0 1 0 0 0.
+#[test]
+fn joint_equalities_take_the_coefficients_that_are_not_written() {
+    let bodies = "<joint name=\"h\" ref=\"2\"/><geom size=\"0.1\"/>\n<body><joint name=\"k\" ref=\"3\"/><geom size=\"0.1\"/></body>";
+    let gear = |attributes: &str| {
+        let tie = format!("<equality><joint joint1=\"k\" {attributes}/></equality>");
+        let text = model("<compiler angle=\"radian\"/>", bodies, &tie);
+        match read(&text).closures[0].1 {
+            LoopClosure::Gear { follower, leader, ratio, offset } => (follower, leader, ratio, offset),
+            ref other => panic!("{other:?}"),
+        }
+    };
+    // k = 3 + constant + ratio (h − 2)
+    assert_eq!(gear("joint2=\"h\""), (1, 0, 1.0, 1.0));
+    assert_eq!(gear("joint2=\"h\" polycoef=\"0.5\""), (1, 0, 1.0, 1.5));
+    assert_eq!(gear("joint2=\"h\" polycoef=\"0.5 -2\""), (1, 0, -2.0, 7.5));
+    assert_eq!(gear(""), (1, 1, 0.0, 3.0));
+    assert_eq!(gear("polycoef=\"0.25\""), (1, 1, 0.0, 3.25));
+}
+
+/// A body at (1, 0, 0) whose site stands at (0, 0, 2) in it, beside a site of the ground.
+#[test]
+fn welds_and_connects_at_sites_and_bodies_are_closures() {
+    let closure = |tie: &str| {
+        let sites = "<site name=\"on body\" pos=\"0 0 2\"/>";
+        let body = format!("<body name=\"b\" pos=\"1 0 0\"><freejoint/><geom size=\"0.1\"/>{sites}</body>");
+        let world = format!("<worldbody>{body}<site name=\"on ground\" pos=\"0 3 0\"/></worldbody>");
+        let model = read(&format!("<mujoco>{world}<equality>{tie}</equality></mujoco>"));
+        (model.closures[0].1, model.tree)
+    };
+    let points = |tie: &str| match closure(tie).0 {
+        LoopClosure::Point { first, second } => [first.at, second.at],
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(points("<connect site1=\"on body\" site2=\"on ground\"/>"), [[0.0, 0.0, 2.0], [0.0, 3.0, 0.0]]);
+    assert_eq!(points("<connect body1=\"b\" anchor=\"0 0 1\"/>"), [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0]]);
+    // Without a torque a weld is a point.
+    let free = "torquescale=\"0\"";
+    let at_sites = points(&format!("<weld {free} site1=\"on body\" site2=\"on ground\"/>"));
+    assert_eq!(at_sites, [[0.0, 0.0, 2.0], [0.0, 3.0, 0.0]]);
+    let weld = format!("<weld {free} body1=\"b\" anchor=\"4 5 6\" relpose=\"1 2 3 1 0 0 0\"/>");
+    assert_eq!(points(&weld), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+    let (weld, tree) = closure("<weld site1=\"on body\" site2=\"on ground\"/>");
+    let [first, second] = ["on body", "on ground"].map(|name| tree.frame(name).unwrap());
+    assert!(matches!(weld, LoopClosure::Frame { first: a, second: b } if (a, b) == (first, second)), "{weld:?}");
+    // relpose: the anchor of the second body stands at (1, 2, 3) in the first, turned by 90° about z.
+    let (weld, tree) = closure("<weld name=\"w\" body1=\"b\" anchor=\"4 5 6\" relpose=\"1 2 3 1 0 0 1\"/>");
+    let [first, second] = ["w on the first body", "w on the second body"].map(|name| tree.frame(name).unwrap());
+    assert!(matches!(weld, LoopClosure::Frame { first: a, second: b } if (a, b) == (first, second)), "{weld:?}");
+    let mut work = tree.workspace();
+    tree.forward_kinematics(&mut work, &[1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).unwrap();
+    let place = tree.place_of_frame(&work, first).unwrap();
+    assert_close("origin", &place.origin, &[1.0, 2.0, 3.0], Tol::ulps(4.0));
+    let quarter = [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+    assert_close("turn", place.rotation.as_flattened(), &quarter, Tol::ulps(4.0));
+    assert_close("anchor", &tree.place_of_frame(&work, second).unwrap().origin, &[4.0, 5.0, 6.0], Tol::ulps(4.0));
+    let text = "<mujoco><worldbody><body name=\"b\"><freejoint/><geom size=\"1\"/></body></worldbody>\n<equality><weld body1=\"b\" torquescale=\"-1\"/></equality></mujoco>";
+    assert_eq!(fault(text), (2, FileFault::Negative { attribute: "torquescale", value: -1.0 }));
+}
+
+/// `inertiafromgeom="true"` takes the geoms, but not where none has mass.
+#[test]
+fn given_inertias_stay_where_no_geom_is_weighed() {
+    let mass = |groups: &str, group: u8| {
+        let body = format!(
+            "<joint/><inertial pos=\"0 0 0\" mass=\"7\" diaginertia=\"1 1 1\"/><geom size=\"1\" mass=\"3\" group=\"{group}\"/>"
+        );
+        read(&model(&format!("<compiler {groups} inertiagrouprange=\"0 2\"/>"), &body, "")).tree.total_mass()
+    };
+    let of_geoms = "inertiafromgeom=\"true\"";
+    assert_close("mass", &[mass("", 1), mass(of_geoms, 1), mass(of_geoms, 4)], &[7.0, 3.0, 7.0], Tol::ulps(1.0));
+}
+
+/// Names made up for what has none stay clear of those of the file.
+#[test]
+fn made_up_names_are_unlike_those_of_the_file() {
+    let text = "<mujoco><worldbody><body><joint/><geom size=\"1\"/>
+        <body name=\"body 1\"><joint name=\"body 1 (2) joint 1\" pos=\"1 0 0\"/><joint name=\"frame of body 1\"/><geom size=\"1\"/></body>
+        <body name=\"fixed\"/></body><body name=\"last\" pos=\"1 0 0\"/><body name=\"frame of last\"/></worldbody>
+        <equality><connect body1=\"fixed\" anchor=\"0 0 0\"/><connect name=\"connect 0\" body1=\"last\" anchor=\"0 0 0\"/></equality></mujoco>";
+    let model = read(text);
+    let joints: Vec<_> = model.tree.joints().iter().map(|place| place.joint.name.as_str()).collect();
+    assert!(joints.contains(&"body 1 (2) joint 1 (2)") && joints.contains(&"frame of last (2)"), "{joints:?}");
+    assert!(model.tree.body("body 1 (2)").is_ok());
+    assert_eq!(model.closures[0].0, "connect 0 (2)");
+}
+
+/// The line of each element is not counted from the start of the file.
+#[test]
+fn large_files_are_read_in_one_pass() {
+    let many = 20_000;
+    let geoms = "<geom size=\"0.1\"/>\n<light/>\n".repeat(many);
+    let model = read(&format!("<mujoco>\n<worldbody>\n<body><joint/>\n{geoms}</body></worldbody></mujoco>"));
+    assert_eq!(model.skipped.len(), many);
+    assert_eq!((model.skipped[0].line, model.skipped[many - 1].line), (5, 3 + 2 * many));
 }
 
 #[test]
@@ -165,7 +291,9 @@ fn wrong_values_and_names_are_refused_with_their_line() {
     let of_body = |body: &str| fault(&model("", body, ""));
     let behind = |behind: &str| fault(&model("", HINGE, behind));
     let missing = |what, element: &str| FileFault::Missing { what, element: element.to_owned() };
-    let nameless = |what, name: &str| FileFault::NoSuchName { what, name: name.to_owned() };
+    let nameless = |what, name: &str| FileFault::Invalid {
+        source: Box::new(MultibodyError::NoSuchName { what, name: name.to_owned() }),
+    };
     let out_of_range = |attribute, value, condition| FileFault::OutOfRange { attribute, value, condition };
     assert_eq!(of_body("<joint class=\"x\"/>"), (5, nameless("class", "x")));
     assert_eq!(

@@ -73,6 +73,9 @@ fn names_axes_and_data_of_joints_are_checked() {
     let joint = TreeJoint::new("b", Y).with_armature(-1.0);
     let error = builder.attach(BodyIndex::GROUND, joint, "two", rod()).unwrap_err();
     assert!(matches!(error, MultibodyError::InvalidJointData { quantity: "reflected inertia", .. }));
+    let joint = TreeJoint::new("b", JointKind::Free).with_armature(0.1);
+    let error = builder.attach(BodyIndex::GROUND, joint, "two", rod()).unwrap_err();
+    assert_eq!(error.to_string(), "the reflected inertia of joint `b` is 0.1; it must satisfy x = 0 for a free joint");
     let joint = TreeJoint::new("b", Y).at([0.0, f64::INFINITY, 0.0]);
     let error = builder.attach(BodyIndex::GROUND, joint, "two", rod()).unwrap_err();
     assert!(matches!(error, MultibodyError::InvalidJointData { quantity: "origin", .. }));
@@ -109,8 +112,27 @@ fn joints_that_move_no_inertia_are_named() {
     builder.attach(BodyIndex::GROUND, TreeJoint::new("idle", Y), "bob", bob).unwrap();
     let tree = builder.build().unwrap();
     let error = tree.forward_dynamics(&mut tree.workspace(), &[0.0], &[0.0], &[1.0], &mut [0.0]).unwrap_err();
-    assert!(matches!(error, MultibodyError::TooLightBody { body, joint, .. } if body == "bob" && joint == "idle"));
-    // Its motor has.
+    assert!(matches!(error, MultibodyError::NoInertia { joint, inertia } if joint == "idle" && inertia.abs() <= 0.0));
+    // So has one on the second axis of a joint with two.
+    let cross = JointKind::Universal { first: [1.0, 0.0, 0.0], second: [0.0, 1.0, 0.0] };
+    let mut builder = RigidTree::builder();
+    builder.attach(BodyIndex::GROUND, TreeJoint::new("cross", cross), "bob", bob).unwrap();
+    let tree = builder.build().unwrap();
+    let error =
+        tree.forward_dynamics(&mut tree.workspace(), &[0.0; 2], &[0.0; 2], &[1.0; 2], &mut [0.0; 2]).unwrap_err();
+    assert!(matches!(error, MultibodyError::NoInertia { joint, .. } if joint == "cross"));
+    // An impossible inertia is told with its number.
+    let impossible =
+        BodyInertia::as_given(1.0, [0.0; 3], [[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, 1.0]]).unwrap();
+    let mut builder = RigidTree::builder();
+    builder.attach(BodyIndex::GROUND, TreeJoint::new("float", JointKind::Free), "body", impossible).unwrap();
+    let tree = builder.build().unwrap();
+    let (q, mut out) = ([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 6]);
+    let error = tree.forward_dynamics(&mut tree.workspace(), &q, &[0.0; 6], &[0.0; 6], &mut out).unwrap_err();
+    let MultibodyError::NoInertia { joint, inertia } = error else { panic!("{error}") };
+    assert_eq!(joint, "float");
+    assert_close("inertia", &[inertia], &[-0.5], Tol::ulps(2.0));
+    // The motor of the first has.
     let mut builder = RigidTree::builder();
     let joint = TreeJoint::new("geared", Y).with_armature(0.5);
     builder.attach(BodyIndex::GROUND, joint, "bob", bob).unwrap();
@@ -150,6 +172,24 @@ fn wrong_state_of_a_batch_is_named() {
     assert_eq!(error, MultibodyError::InState { state: 13, source: Box::new(source) });
     let error = wrong.set(21, &[0.0; 3]).unwrap_err();
     assert!(matches!(error, MultibodyError::NoSuchIndex { what: "state", index: 21, count: 21 }));
+}
+
+/// In single precision rounding leaves more of a motion without inertia, and it is none either.
+#[test]
+fn massless_base_is_refused_in_single_precision_in_every_position() {
+    let mut builder = RigidTree::builder();
+    let free = TreeJoint::new("float", JointKind::Free);
+    let base = builder.attach(BodyIndex::GROUND, free, "base", BodyInertia::MASSLESS).unwrap();
+    let hinge = TreeJoint::new("hinge", JointKind::Revolute { axis: [0.36, 0.48, 0.8] });
+    builder.attach(base, hinge, "arm", rod()).unwrap();
+    let tree = builder.build().unwrap();
+    let mut work = tree.workspace();
+    for k in 0..40_u8 {
+        let (q, mut out) = ([1.0, 0.0, 0.0, 0.0, 0.1, 0.2, 0.3, 0.17 * f32::from(k)], [0.0; 7]);
+        let result = tree.forward_dynamics(&mut work, &q, &[0.0; 7], &[1.0; 7], &mut out);
+        let Err(MultibodyError::TooLightBody { body, .. }) = result else { panic!("{k}: {result:?} {out:?}") };
+        assert_eq!(body, "base");
+    }
 }
 
 /// A massless base that is free is at the mercy of the joints beyond it: closures do not hold it in the tree.

@@ -149,7 +149,7 @@ pub(crate) fn tree_of(kinds: &[JointKind], parents: &[usize], seed: u64) -> Rigi
         let joint = TreeJoint::new(format!("joint {i}"), kind)
             .at([next() - 0.5, next() - 0.5, next() - 0.5])
             .turned(attitude)
-            .with_armature(if i % 3 == 1 { 0.1 } else { 0.0 });
+            .with_armature(if i % 3 == 1 && kind != JointKind::Free { 0.1 } else { 0.0 });
         let body = odd_body(seed + 17 * i as u64 + 1);
         bodies.push(builder.attach(bodies[parent], joint, format!("body {i}"), body).unwrap());
     }

@@ -83,7 +83,8 @@ fn files_are_refused_with_the_line_and_the_reason() {
     let text = INERTIAL.replace("value=\"1\"", "value=\"one\"");
     assert_eq!(fault(&robot(JOINT, &text)), (5, FileFault::NotNumbers { attribute: "value", text: "one".to_owned() }));
     let stray = JOINT.replace("link=\"arm\"", "link=\"leg\"");
-    assert_eq!(fault(&robot(&stray, INERTIAL)), (8, FileFault::NoSuchLink { link: "leg".to_owned() }));
+    let source = Box::new(MultibodyError::NoSuchName { what: "link", name: "leg".to_owned() });
+    assert_eq!(fault(&robot(&stray, INERTIAL)), (8, FileFault::Invalid { source }));
     let second = JOINT.replace("name=\"j\"", "name=\"k\"");
     let twice = fault(&robot(&format!("{JOINT}\n{second}"), INERTIAL));
     assert_eq!(twice, (9, FileFault::TwoParents { link: "arm".to_owned() }));

@@ -10,7 +10,7 @@
 //! | `[dislocation]` | `ScrewDislocations`: circuits in a crystal with screws | `piola_uniformity` |
 //! | `[laminated_tube]` | `LayeredTube`: a tube with residual stress | `piola_uniformity` |
 //! | `[box]` | `BoxStudy`: elastic and viscous fields on a rectangle or a box | `piola_spectral` |
-//! | `[robot]` | `RobotStudy`: the motion of a tree of bodies from a URDF file | `piola_multibody` |
+//! | `[robot]` | `RobotStudy`: the motion of a tree of bodies from a URDF or MJCF file | `piola_multibody` |
 //!
 //! Those with `piola_solutions` and `piola_uniformity` need the feature `solutions`, those with `piola_spectral` the feature
 //! `spectral`, those with `piola_multibody` the feature `robots`.

@@ -155,6 +155,44 @@ fn arm_of_an_mjcf_file_starts_where_the_file_places_it_and_keeps_its_gear() {
     );
 }
 
+/// Gravity, springs and motors of an MJCF file, and each of them that the scene replaces.
+#[test]
+fn mjcf_files_have_their_gravity_and_each_key_of_a_spring_replaces_its_own() {
+    let folder = folder("given");
+    let model = "<mujoco><compiler angle='radian'/><option GRAVITY/><worldbody><body><joint name='hinge' stiffness='3' \
+        springref='0.5' damping='0.2'/><geom size='0.1' pos='1 0 0'/></body></worldbody><actuator><motor joint='hinge'/>\
+        </actuator></mujoco>";
+    let study = |gravity: &str, rest: &str| {
+        std::fs::write(folder.join("m.xml"), model.replace("GRAVITY", gravity)).unwrap();
+        let scene = format!("[robot]\nfile = \"m.xml\"\n{rest}\n[time]\nend = \"1 s\"\n");
+        std::fs::write(folder.join("m.toml"), scene).unwrap();
+        match SceneFile::load(&folder.join("m.toml"), &[]) {
+            Ok(SceneFile::Study(study)) => study,
+            other => panic!("{other:?}"),
+        }
+    };
+    let robot = |study: &Study| match &study.subject {
+        Subject::Robot(robot) => (robot.closed.tree().gravity(), robot.drives[0]),
+        other => panic!("{other:?}"),
+    };
+    let (gravity, drive) = robot(&study("gravity='0 0 0'", ""));
+    let exact = Tol::ulps(0.0);
+    assert_close("gravity of the file", &gravity, &[0.0; 3], exact);
+    assert_eq!((drive.stiffness, drive.rest, drive.damping), (3.0, 0.5, 0.2));
+    assert_close("gravity of MuJoCo", &robot(&study("", "")).0, &[0.0, 0.0, -9.81], exact);
+    let replaced = robot(&study("gravity='0 0 0'", "gravity = [0, 1, 0]")).0;
+    assert_close("gravity of the scene", &replaced, &[0.0, 1.0, 0.0], exact);
+    let drive = |key: &str| robot(&study("", &format!("[[drive]]\nname = \"hinge\"\n{key}"))).1;
+    let found = ["stiffness = 7", "rest = 0.25", "damping = 0"].map(drive);
+    let found = found.map(|drive| (drive.stiffness, drive.rest, drive.damping));
+    assert_eq!(found, [(7.0, 0.5, 0.2), (3.0, 0.25, 0.2), (3.0, 0.5, 0.0)]);
+    let plan = StudyPlan::of(&study("", "")).to_string();
+    assert!(plan.contains("motors of the file") && plan.contains("sets a torque or force: hinge"), "{plan}");
+    std::fs::remove_dir_all(&folder).unwrap();
+    let Subject::Robot(arm) = load("six-joint-arm.toml", &[]).subject else { panic!("a robot") };
+    assert_close("standard gravity", &arm.closed.tree().gravity(), &[0.0, 0.0, -9.80665], exact);
+}
+
 #[test]
 fn six_joint_arm_is_planned_and_its_locked_joint_stays() {
     let study = load("six-joint-arm.toml", &["output.samples=50"]);

@@ -10,6 +10,9 @@ use piola_multibody::{
 use super::{JointDrive, RobotStudy};
 use crate::model::Builder;
 
+/// Gravity with a URDF file, m/s².
+const STANDARD: [f64; 3] = [0.0, 0.0, -9.80665];
+
 /// Numbers that are recorded at most: about a gigabyte with their tables.
 const MOST_NUMBERS: usize = 25_000_000;
 
@@ -36,7 +39,7 @@ impl Builder<'_> {
         let robot = RobotFile::read(&file, options);
         let robot = self.sound(table, "file", robot, "a URDF or MJCF file, relative to the scene")?;
         let (mut closed, mut q) = (robot.closed, robot.home);
-        let gravity = table.vector("gravity")?;
+        let gravity = if table.has("gravity") { table.vector("gravity")? } else { robot.gravity.unwrap_or(STANDARD) };
         let set = closed.set_gravity(gravity);
         self.sound(table, "gravity", set, "finite numbers")?;
         let tree = closed.tree().clone();
@@ -103,6 +106,7 @@ impl Builder<'_> {
             drives,
             names,
             frictions: frictions.map(|place| place.joint.name.clone()).collect(),
+            motors: robot.motors.into_iter().map(|motor| motor.joint).collect(),
             closed,
         })
     }
@@ -171,9 +175,9 @@ impl Builder<'_> {
         }
         let drive = &mut drives[first_freedom];
         drive.effort = either(["torque", "force"]).unwrap_or(0.0);
-        drive.damping = if record.has("damping") { record.number("damping")? } else { drive.damping };
-        if record.has("stiffness") || record.has("rest") {
-            (drive.stiffness, drive.rest) = (record.number("stiffness")?, record.number("rest")?);
+        let given = [("damping", &mut drive.damping), ("stiffness", &mut drive.stiffness), ("rest", &mut drive.rest)];
+        for (key, value) in given {
+            *value = if record.has(key) { record.number(key)? } else { *value };
         }
         if record.flag("locked")? {
             if 0.0 < v[first_freedom].abs() {

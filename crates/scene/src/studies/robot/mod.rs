@@ -56,6 +56,8 @@ pub struct RobotStudy {
     pub names: [Vec<String>; 2],
     /// Coulomb friction that the file gives and nothing applies: the joints.
     pub frictions: Vec<String>,
+    /// The joints that have a motor in the file.
+    pub motors: Vec<String>,
 }
 
 /// What drives a freedom: τ = `effort` − `damping` v − `stiffness` (q − `rest`).
@@ -121,6 +123,10 @@ impl RobotStudy {
         plan.skip("limits of joints", "not enforced: the summary names the joints that leave them");
         if !self.frictions.is_empty() {
             plan.skip("Coulomb friction", format!("not applied: {}", self.frictions.join(", ")));
+        }
+        if !self.motors.is_empty() {
+            let motors = self.motors.join(", ");
+            plan.skip("motors of the file", format!("not driven, [[drive]] sets a torque or force: {motors}"));
         }
         plan.skip("contact", "bodies pass through each other");
         if self.animation {
