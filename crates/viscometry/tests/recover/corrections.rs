@@ -2,14 +2,12 @@
 
 use core::f64::consts::PI;
 
-use piola_testkit::{Tol, assert_close};
+use piola_testkit::{NormalNoise, Tol, assert_close};
 use piola_viscometry::ViscometryError;
 use piola_viscometry::recover::{
     self, Capillary, Criterion, FlowTable, Noise, PipeGeometry, end_correction, slip_at_walls,
 };
 use statrs::distribution::{ContinuousCDF, Normal as StandardNormal};
-
-use super::noise::Normal;
 
 const ROUNDING: Tol = Tol::stated(3e-13, "rounding through differences of nearly equal tables");
 
@@ -151,7 +149,7 @@ fn bands_of_corrected_exact_tables_hold_the_fluid_and_are_narrow() {
 
 #[test]
 fn bands_of_corrected_tables_with_a_percent_of_noise_hold_the_fluid_in_nine_of_ten_trials() {
-    let mut normal = Normal(17);
+    let mut normal = NormalNoise(17);
     let inside = |(stress, band): (f64, Option<[f64; 2]>)| {
         let [low, high] = band.expect("asked for");
         let truth = stress + stress * stress;
