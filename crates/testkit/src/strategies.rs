@@ -18,7 +18,7 @@ use proptest::prelude::*;
 /// ```
 /// use piola_testkit::strategies::random_cases;
 /// use proptest::prelude::*;
-/// proptest!(ProptestConfig::with_cases(random_cases(1_000)), |(x in -1.0..1.0)| prop_assert!(x.abs() <= 1.0));
+/// proptest!(ProptestConfig::with_cases(random_cases(1_000)), |(x in -1.0_f64..1.0)| prop_assert!(x.abs() <= 1.0));
 /// ```
 #[must_use]
 pub fn random_cases(all: u32) -> u32 {
