@@ -16,7 +16,7 @@ use crate::stages::{Kind, MOST, Number, WIDTH, run};
 #[cfg(feature = "rayon")]
 const PARALLEL: usize = 1 << 13;
 
-/// What is computed.
+/// The measures of stress and tangent that a call asks for; `None` for what it does not ask for.
 #[derive(Clone, Copy)]
 pub(crate) struct Wanted {
     pub(crate) stress: Option<StressMeasure>,
@@ -78,7 +78,7 @@ pub(crate) fn deformation(law: &AnySolid, f: &[f64; 9]) -> Result<DeformationGra
     Ok(deformation)
 }
 
-/// A law and what is wanted of it.
+/// One call: the law, and the measures that it is asked for.
 pub(crate) struct Evaluation<'a> {
     law: &'a AnySolid,
     kind: Kind<'a>,
@@ -152,7 +152,8 @@ impl<'a> Evaluation<'a> {
         self.part(part)
     }
 
-    /// With memory for what is wanted. One block suffices for few points, which then clear little memory.
+    /// Evaluates the points on this thread. The memory on the stack fits the request: it has no room for tangents that nobody asked for,
+    /// and one block for a few points, because all of it is cleared first.
     #[expect(clippy::large_stack_arrays, reason = "66 kB, and nothing is allocated")]
     fn part(&self, part: Part<'_>) -> Bad {
         match (self.wanted.tangent.is_some(), part.f.len() <= WIDTH) {
@@ -219,7 +220,7 @@ impl<'a> Evaluation<'a> {
         }
     }
 
-    /// Refuses what is no deformation, what the law refuses, and numbers that are not finite.
+    /// The error of a point: its gradient is no deformation, the law refuses it, or a number of the answer is not finite.
     #[cold]
     fn check(&self, f: &[f64; 9], stress: &[f64], tangent: &[f64]) -> Result<(), SolidsError> {
         deformation(self.law, f)?;

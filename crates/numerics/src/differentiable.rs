@@ -6,8 +6,8 @@
 //! derivatives of the elementary functions are therefore stated in one place, and second derivatives are
 //! closures that types of first order never call.
 
-/// [f(0), …, f(N − 1)]. A plain loop is a tenth of the code that `core::array::from_fn` and `map` become, and numbers with derivatives
-/// are compiled for many scalars and sizes.
+/// [f(0), …, f(N − 1)]. Before optimisation this loop is some 90 lines of intermediate code, where `core::array::from_fn` is 220 and `map`
+/// 370: numbers with derivatives are compiled for many scalars and sizes.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn entries<T: crate::Real, const N: usize>(f: impl Fn(usize) -> T) -> [T; N] {
     let mut entries = [T::zero(); N];

@@ -13,7 +13,9 @@ use core::ops::Range;
 use proptest::collection;
 use proptest::prelude::*;
 
-/// How many random cases to try of `all`: a tenth, for every day, and all where the environment sets `PIOLA_ALL_CASES`.
+/// The number of random cases that a test tries: a tenth of `all`, or `all` where the environment sets `PIOLA_ALL_CASES`.
+///
+/// # Example
 ///
 /// ```
 /// use piola_testkit::strategies::random_cases;

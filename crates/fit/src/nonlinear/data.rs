@@ -52,7 +52,7 @@ pub enum NonlinearFlow {
 }
 
 impl NonlinearFlow {
-    /// What is measured, if it is a shear flow.
+    /// The measured response of a shear flow; `None` of an extension.
     #[must_use]
     pub const fn shear_response(self) -> Option<ShearResponse> {
         match self {

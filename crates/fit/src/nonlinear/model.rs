@@ -25,7 +25,8 @@ const MOST: usize = 6;
 /// | `kbkz-rational` | [`Kbkz`] with [`RationalDamping`] | `viscosity`, `time`, `alpha`, `beta` ≤ 1 |
 /// | `kbkz-exponential` | [`Kbkz`] with [`ExponentialDamping`] | `viscosity`, `time`, `strength`, `beta` ≤ 1 |
 ///
-/// Several modes ([`RelaxationModes`]) share the solvent, and what stands after `time`. In shear `beta` of both K-BKZ fluids does nothing.
+/// Several modes ([`RelaxationModes`]) have a viscosity and a `time` each. They share the solvent and the parameters behind `time` in the
+/// table. Shear flows do not depend on `beta` of the K-BKZ fluids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NonlinearModel {
