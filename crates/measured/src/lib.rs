@@ -7,6 +7,7 @@ mod error;
 pub mod fitting;
 #[cfg(feature = "history")]
 pub mod history;
+mod measured_tests;
 pub mod nonlinear;
 pub mod rheology;
 mod sheet;
@@ -22,3 +23,4 @@ pub mod internal {
 }
 
 pub use error::MeasuredError;
+pub use measured_tests::MeasuredTests;

@@ -1,16 +1,15 @@
 //! Tables of time, stretch and stress.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
 
 use piola_document::units::Dimension;
 use piola_fit::FitError;
 use piola_fit::history::HistoryTest;
 use piola_fit::sides::Loading;
 
-use crate::MeasuredError;
-use crate::fitting::{TableMistake, TableReport};
-use crate::sheet::{NumberColumn, Row, Sheet, read};
+use crate::fitting::TableMistake;
+use crate::measured_tests::{MeasuredTests, Tabulated, TestsAndNotes};
+use crate::sheet::{NumberColumn, Row, Sheet};
 use crate::sides::columns::{self as words, Column};
 
 /// Tests of one material along time.
@@ -26,45 +25,11 @@ use crate::sides::columns::{self as words, Column};
 /// assert!(wrong.unwrap_err().to_string().starts_with("skin.csv:3: "));
 /// # Ok::<(), piola_measured::MeasuredError>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct HistoryMeasurements {
-    /// The file.
-    pub path: PathBuf,
-    /// The unit of the stresses, as the file names it.
-    pub unit: Option<String>,
-    /// The tests.
-    pub tests: Vec<HistoryTest>,
-    /// What was read in a way that a reader must know, as sentences without a full stop.
-    pub notes: Vec<String>,
-}
+pub type HistoryMeasurements = MeasuredTests<HistoryTest>;
 
-impl HistoryMeasurements {
-    /// Reads a file.
-    ///
-    /// # Errors
-    /// [`MeasuredError::Unreadable`], [`MeasuredError::TooLarge`], [`MeasuredError::NotText`]; [`MeasuredError::Table`] with every
-    /// mistake and its line.
-    pub fn load(path: &Path) -> Result<Self, MeasuredError> {
-        Self::parse(path, &read(path)?)
-    }
-
-    /// Reads the text of a file.
-    ///
-    /// # Errors
-    /// [`MeasuredError::Table`].
-    pub fn parse(path: impl Into<PathBuf>, text: &str) -> Result<Self, MeasuredError> {
-        let path = path.into();
-        match tests(text) {
-            Ok((unit, tests, notes)) => Ok(Self { path, unit, tests, notes }),
-            Err(mistakes) => Err(MeasuredError::Table(TableReport::new(path, mistakes))),
-        }
-    }
-
-    /// The name of the file without folder and ending.
-    #[must_use]
-    pub fn name(&self) -> String {
-        self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+impl Tabulated for HistoryTest {
+    fn tests(text: &str) -> Result<TestsAndNotes<Self>, Vec<TableMistake>> {
+        tests(text)
     }
 }
 
@@ -84,16 +49,10 @@ struct Group {
     rows: Vec<(u64, [f64; 3])>,
 }
 
-/// Unit, tests and notes of a table.
-type Tests = (Option<String>, Vec<HistoryTest>, Vec<String>);
-
-fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
+fn tests(text: &str) -> Result<TestsAndNotes<HistoryTest>, Vec<TableMistake>> {
     let sheet = Sheet::parse(text, &is_known)?;
     let one = |mistake| vec![mistake];
-    let missing = |what: &str, valid: &'static str| {
-        let what = format!("no column is a {what}: the columns are {}", sheet.names());
-        vec![TableMistake::new(sheet.header_line, what, valid)]
-    };
+    let missing = |what: &str, valid: &'static str| vec![sheet.missing(what, valid)];
     let mut notes = Vec::new();
     let find = |names: &[&str]| sheet.column(names).map_err(one);
     let time = find(TIME)?.ok_or_else(|| missing("time", "a column `time [s]`"))?;

@@ -28,6 +28,12 @@ impl Sheet {
         }
     }
 
+    /// The mistake of a table without a column of a quantity.
+    pub(crate) fn missing(&self, what: &str, valid: &'static str) -> TableMistake {
+        let what = format!("no column is a {what}: the columns are {}", self.names());
+        TableMistake::new(self.header_line, what, valid)
+    }
+
     /// A column with its unit. Without one it is in SI, and a note says so. `valid` are the units in words.
     pub(crate) fn in_units(
         &self,

@@ -1,15 +1,13 @@
 //! Tables of tests with sides.
 
-use std::path::{Path, PathBuf};
-
 use piola_fit::sides::{Loading, SidesTest};
 
 use super::columns::{
     ANGLE, Column, MODE, SIDE, SIDE_STRAIN, STRAIN, STRESS, STRETCH, field, is_known, loading, stress_unit,
 };
-use crate::MeasuredError;
-use crate::fitting::{TableMistake, TableReport};
-use crate::sheet::{Row, Sheet, read};
+use crate::fitting::TableMistake;
+use crate::measured_tests::{MeasuredTests, Tabulated, TestsAndNotes};
+use crate::sheet::{Row, Sheet};
 
 /// Tests of one material.
 ///
@@ -26,60 +24,21 @@ use crate::sheet::{Row, Sheet, read};
 /// assert!(wrong.unwrap_err().to_string().starts_with("skin.csv:2: "));
 /// # Ok::<(), piola_measured::MeasuredError>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct SidesMeasurements {
-    /// The file.
-    pub path: PathBuf,
-    /// The unit of the stresses, as the file names it.
-    pub unit: Option<String>,
-    /// The tests.
-    pub tests: Vec<SidesTest>,
-    /// What was read in a way that a reader must know, as sentences without a full stop.
-    pub notes: Vec<String>,
-}
+pub type SidesMeasurements = MeasuredTests<SidesTest>;
 
-impl SidesMeasurements {
-    /// Reads a file.
-    ///
-    /// # Errors
-    /// [`MeasuredError::Unreadable`], [`MeasuredError::TooLarge`], [`MeasuredError::NotText`]; [`MeasuredError::Table`] with every
-    /// mistake and its line.
-    pub fn load(path: &Path) -> Result<Self, MeasuredError> {
-        Self::parse(path, &read(path)?)
-    }
-
-    /// Reads the text of a file.
-    ///
-    /// # Errors
-    /// [`MeasuredError::Table`].
-    pub fn parse(path: impl Into<PathBuf>, text: &str) -> Result<Self, MeasuredError> {
-        let path = path.into();
-        match tests(text) {
-            Ok((unit, tests, notes)) => Ok(Self { path, unit, tests, notes }),
-            Err(mistakes) => Err(MeasuredError::Table(TableReport::new(path, mistakes))),
-        }
-    }
-
-    /// The name of the file without folder and ending.
-    #[must_use]
-    pub fn name(&self) -> String {
-        self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+impl Tabulated for SidesTest {
+    fn tests(text: &str) -> Result<TestsAndNotes<Self>, Vec<TableMistake>> {
+        tests(text)
     }
 }
 
 /// Stretch, stress and lateral stretch.
 type Point = (f64, f64, Option<f64>);
-/// Unit, tests and notes of a table.
-type Tests = (Option<String>, Vec<SidesTest>, Vec<String>);
 
-fn tests(text: &str) -> Result<Tests, Vec<TableMistake>> {
+fn tests(text: &str) -> Result<TestsAndNotes<SidesTest>, Vec<TableMistake>> {
     let sheet = Sheet::parse(text, &is_known)?;
     let one = |mistake| vec![mistake];
-    let missing = |what: &str, valid: &'static str| {
-        let what = format!("no column is a {what}: the columns are {}", sheet.names());
-        vec![TableMistake::new(sheet.header_line, what, valid)]
-    };
+    let missing = |what: &str, valid: &'static str| vec![sheet.missing(what, valid)];
     let along = Column::of(&sheet, STRETCH, STRAIN).map_err(one)?;
     let along =
         along.ok_or_else(|| missing("stretch or a strain", "a column `stretch`, `strain [%]` or `strain [-]`"))?;

@@ -25,12 +25,7 @@ pub(super) fn tests(sheet: &Sheet) -> Result<Found, Vec<TableMistake>> {
     let (measure, stresses) =
         if nominal == [None, None] { (Measure::Cauchy, truth) } else { (Measure::FirstPiola, nominal) };
     if stresses == [None, None] {
-        let what = format!("no column is a stress: the columns are {}", sheet.names());
-        return Err(vec![TableMistake::new(
-            sheet.header_line,
-            what,
-            "P1 and P2, or sigma1 and sigma2 for Cauchy stresses",
-        )]);
+        return Err(vec![sheet.missing("stress", "P1 and P2, or sigma1 and sigma2 for Cauchy stresses")]);
     }
     let units: Vec<String> = stresses.into_iter().flatten().filter_map(|at| sheet.headings[at].unit.clone()).collect();
     if let [a, b] = units.as_slice()

@@ -39,8 +39,7 @@ impl Deformation {
         ];
         let found = kinds.into_iter().find_map(|(quantity, kind)| Some((find(sheet, quantity)?, kind)));
         let Some((at, kind)) = found else {
-            let what = format!("no column is a stretch or a strain: the columns are {}", sheet.names());
-            return Err(TableMistake::new(sheet.header_line, what, "a column `stretch`, `strain [%]` or `strain [-]`"));
+            return Err(sheet.missing("stretch or a strain", "a column `stretch`, `strain [%]` or `strain [-]`"));
         };
         let unit = match &sheet.headings[at].unit {
             None => None,
