@@ -42,7 +42,7 @@ pub(crate) enum Command {
     /// shifts, a master curve and Prony series.
     Spectrum(crate::spectra::SpectrumArguments),
     /// Fit viscoelastic fluids to start-up of shear and extension, steady flows and normal stresses; compare them in a table, a summary
-    /// and a figure.
+    /// and a figure. Needs the feature `nonlinear` of the program.
     Nonlinear(crate::nonlinear::NonlinearArguments),
     /// Load a specimen of any solid along a path of stretches or loads: all components of strain and stress and a figure out.
     /// Needs the feature `specimens` of the program.

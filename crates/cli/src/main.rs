@@ -3,6 +3,8 @@
 //! Results go to standard output; progress, notes and errors to standard error. Exit codes are those of [`Exit`].
 #![forbid(unsafe_code)]
 
+#[cfg(not(all(feature = "nonlinear", feature = "register", feature = "specimens")))]
+mod absent;
 mod arguments;
 mod commands;
 mod comparison;
@@ -16,6 +18,10 @@ mod histories;
 mod histories;
 mod html;
 mod interrupt;
+#[cfg(feature = "nonlinear")]
+mod nonlinear;
+#[cfg(not(feature = "nonlinear"))]
+#[path = "nonlinear/absent.rs"]
 mod nonlinear;
 mod progress;
 #[cfg(feature = "register")]

@@ -8,6 +8,7 @@ pub mod fitting;
 #[cfg(feature = "history")]
 pub mod history;
 mod measured_tests;
+#[cfg(feature = "nonlinear")]
 pub mod nonlinear;
 pub mod rheology;
 mod sheet;

@@ -1,23 +1,8 @@
 //! The command `specimen` of a program that is built without it.
 
-use std::ffi::OsString;
-
-use clap::Args;
-
 use crate::Exit;
-use crate::commands::note;
-
-#[derive(Debug, Args)]
-#[command(disable_help_flag = true)]
-pub(crate) struct SpecimenArguments {
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
-    _rest: Vec<OsString>,
-}
+pub(crate) use crate::absent::AnyArguments as SpecimenArguments;
 
 pub(crate) fn load(_: &SpecimenArguments) -> Exit {
-    note(
-        "error: this program is built without specimens of solids; build it with the feature `specimens`:\n\
-         cargo run --release --features specimens -- specimen uniaxial --solid SOLID --path stretch=1..3",
-    );
-    Exit::Invalid
+    crate::absent::refuse("specimens of solids", "specimens", "specimen uniaxial --solid SOLID --path stretch=1..3")
 }

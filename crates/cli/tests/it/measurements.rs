@@ -282,6 +282,15 @@ fn a_full_device_is_a_failure() {
     assert_eq!(status.code(), Some(1));
 }
 
+#[cfg(not(feature = "nonlinear"))]
+#[test]
+fn a_program_without_viscoelastic_fluids_says_how_to_get_them() {
+    let (code, shown, told) = Folder::new("no-nonlinear").piola(&["nonlinear", "start.csv"]);
+    assert_eq!((code, shown.as_str()), (Some(2), ""));
+    assert!(told.contains("--features nonlinear"), "{told}");
+}
+
+#[cfg(feature = "nonlinear")]
 #[test]
 fn viscoelastic_fluids_are_fitted_to_flows_in_files_of_their_own_and_flow_again() {
     // Oldroyd's fluid B: ηₛ = 1, ηₚ = 2 Pa s, λ = 4 s; N₁ = 2 ηₚ λ k², and the start-up at 1/s.

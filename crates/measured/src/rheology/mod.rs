@@ -26,6 +26,7 @@ pub(crate) mod sweeps;
 mod table;
 
 pub use fluids::{Comparison, FittedFluid, Request, compare, compare_until};
+#[cfg(any(feature = "history", feature = "nonlinear"))]
 pub(crate) use fluids::{largest, parameter_in_words, rms};
 pub use kind::{Answer, Answering, Flow, FlowKind};
 pub use piola_fit::fluids::{FluidModel, Intervals, State, Weighting};

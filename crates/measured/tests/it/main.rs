@@ -8,6 +8,7 @@ mod fitting;
 mod history;
 mod layouts;
 mod newtonian;
+#[cfg(feature = "nonlinear")]
 mod nonlinear;
 mod rheology;
 mod sides;
