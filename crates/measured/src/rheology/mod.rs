@@ -27,7 +27,9 @@ mod table;
 
 pub use fluids::{Comparison, FittedFluid, Request, compare, compare_until};
 #[cfg(any(feature = "history", feature = "nonlinear"))]
-pub(crate) use fluids::{largest, parameter_in_words, rms};
+pub(crate) use fluids::parameter_in_words;
+#[cfg(feature = "nonlinear")]
+pub(crate) use fluids::{largest, rms};
 pub use kind::{Answer, Answering, Flow, FlowKind};
 pub use piola_fit::fluids::{FluidModel, Intervals, State, Weighting};
 pub use piola_viscometry::recover::{Noise, Rise};
