@@ -25,9 +25,9 @@ mod recovery_output;
 pub(crate) mod sweeps;
 mod table;
 
-pub use fluids::{Comparison, FittedFluid, Request, compare, compare_until};
 #[cfg(any(feature = "history", feature = "nonlinear"))]
 pub(crate) use fluids::parameter_in_words;
+pub use fluids::{Comparison, FittedFluid, Request, compare, compare_until};
 #[cfg(feature = "nonlinear")]
 pub(crate) use fluids::{largest, rms};
 pub use kind::{Answer, Answering, Flow, FlowKind};
