@@ -52,7 +52,7 @@ fn mistakes_of_tables_with_sides_are_named_with_their_line() {
         ("stretch,stress\n1.1,1\n", "foam.csv:1: no column is a mode or an angle"),
         ("mode,stress\nuniaxial,1\n", "foam.csv:1: no column is a stretch or a strain"),
         ("mode,stretch,stress [m]\nuniaxial,1.1,1\n", "foam.csv:1: "),
-        ("mode,stretch [s],stress\nuniaxial,1.1,1\n", "foam.csv:1: `s` is no unit of a stretch or strain"),
+        ("mode,stretch [s],stress\nuniaxial,1.1,1\n", "foam.csv:1: `s` is not a unit of a stretch or strain"),
     ] {
         let error = SidesMeasurements::parse("foam.csv", text).err().map(|error| error.to_string()).unwrap_or_default();
         assert!(error.contains(expected), "{text}: {error}");
