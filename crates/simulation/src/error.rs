@@ -123,6 +123,19 @@ pub enum SimulationError {
         /// The name of the method.
         method: String,
     },
+    /// A method for q̈ = f(q) with an H whose equations have no such form.
+    #[error(
+        "the method {method} needs H = ½ p·W p + w·p + V(q) with a constant W; an explicit one as verner-98 takes any H"
+    )]
+    NoConstantInertia {
+        /// The name of the method.
+        method: String,
+    },
+    /// A closed form of a system that has none here.
+    #[error(
+        "the closed form is there for bodies on ellipses about a fixed centre, and for a symmetric top on one spherical joint whose centre of mass is on the third axis of the joint, under gravity along z alone"
+    )]
+    NoClosedForm,
     /// A method that constraints do not allow.
     #[error("the method {method} does not keep constraints: an adaptive one does, as dormand-prince-853")]
     ConstraintsNeedProjection {

@@ -35,6 +35,19 @@ pub(super) struct MotionCheckpointBody {
     pub(super) next: usize,
     pub(super) landing: usize,
     pub(super) history: History,
+    /// The islands of a mechanism that are done.
+    #[serde(default)]
+    pub(super) done: Vec<Part>,
+}
+
+/// An island of a mechanism that was integrated, however far it came.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Part {
+    pub(super) history: History,
+    pub(super) report: Report,
+    /// Time reached, s.
+    pub(super) time: f64,
 }
 
 /// The version and the run that a checkpoint belongs to.

@@ -12,8 +12,9 @@ use piola_integrators::{
 };
 
 use super::any_field::{AdaptiveStep, AnyField, FieldWithText, SecondOrderWithText, SeparableWithText};
-use super::checkpoint::{CheckpointKeeper, Marks, MotionCheckpoint, MotionCheckpointBody, Stage};
+use super::checkpoint::{CheckpointKeeper, Marks, MotionCheckpoint, MotionCheckpointBody, Part, Stage};
 use super::{History, Invariants, Method, Progress, TimeSpan, Timetable};
+use crate::SimulationError;
 
 /// Reads everything that is recorded out of a state.
 pub(super) trait Reading {
@@ -62,6 +63,8 @@ pub(super) struct Driver<'o> {
     stopped: bool,
     keeper: Option<Keeper<'o>>,
     resumed: Option<MotionCheckpoint>,
+    /// Islands before this one, for its checkpoints.
+    done: Vec<Part>,
 }
 
 /// Who keeps the checkpoints of a run, and the marks that they bear.
@@ -94,7 +97,13 @@ impl<'o> Driver<'o> {
             stopped: false,
             keeper,
             resumed,
+            done: Vec::new(),
         }
+    }
+
+    /// The driver of an island, after others that are done.
+    pub(super) fn after(self, done: Vec<Part>) -> Self {
+        Self { done, ..self }
     }
 
     pub(super) fn start(&self) -> f64 {
@@ -109,8 +118,9 @@ impl<'o> Driver<'o> {
         &mut self.history
     }
 
-    pub(super) fn finish(self) -> (History, Report, f64) {
-        (self.history, self.report, self.time)
+    /// What was integrated, and the islands before it.
+    pub(super) fn finish(self) -> (Part, Vec<Part>) {
+        (Part { history: self.history, report: self.report, time: self.time }, self.done)
     }
 
     fn step_done(&mut self, time: f64) -> ControlFlow<()> {
@@ -140,16 +150,17 @@ impl<'o> Driver<'o> {
     fn hand_over(&mut self, stage: Stage, report: Report, steps: u64) {
         let Some((keeper, marks)) = &mut self.keeper else { return };
         let (marks, history) = (marks.clone(), core::mem::take(&mut self.history));
-        let body = MotionCheckpointBody { stage, report, steps, next: self.next, landing: self.landing, history };
+        let (next, landing, done) = (self.next, self.landing, core::mem::take(&mut self.done));
+        let body = MotionCheckpointBody { stage, report, steps, next, landing, history, done };
         let checkpoint = MotionCheckpoint::new(marks, body);
         keeper.keep(&checkpoint);
-        self.history = checkpoint.body.history;
+        (self.history, self.done) = (checkpoint.body.history, checkpoint.body.done);
     }
 
     /// Records the state at the start, or takes up what a checkpoint holds.
     fn begin(&mut self, state: &mut State, reading: &mut dyn Reading) -> Option<Checkpoint> {
         if let Some(MotionCheckpoint { body, .. }) = self.resumed.take() {
-            let MotionCheckpointBody { stage, report, steps, next, landing, history } = body;
+            let MotionCheckpointBody { stage, report, steps, next, landing, history, .. } = body;
             (self.report, self.steps, self.next, self.landing, self.history) = (report, steps, next, landing, history);
             let checkpoint = match stage {
                 Stage::Fixed(resumed) => {
@@ -290,7 +301,7 @@ impl<'o> Driver<'o> {
             Method::Nystrom86 { .. } | Method::Nystrom1210 { .. } => {
                 Err("a Nyström pair needs forces that depend on positions alone".to_string())
             }
-            Method::ClosedForm => Err("a closed form is there for bodies about a fixed centre alone".to_string()),
+            Method::ClosedForm => Err(SimulationError::NoClosedForm.to_string()),
         }
     }
 

@@ -8,11 +8,12 @@ use piola_lagrangian::{LagrangianError, Reaction, Workspace};
 
 use super::drive::{Driver, Reading};
 use super::energies;
+pub(super) use super::energies::names as energy_names;
 use super::{History, Invariants, Method, PartReaction};
 use crate::SimulationError;
 use crate::constraints::{ConstrainedMechanism, MechanismConstraints};
 use crate::forces::{MechanismLagrangian, working};
-use crate::joints::Mechanism;
+use crate::joints::{ClosedTop, Mechanism};
 
 /// Particles and rigid bodies on joints.
 pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver) -> Result<(), String> {
@@ -34,6 +35,9 @@ pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver)
         history.energy_names = energies::names(system);
     }
     let lagrangian = system.lagrangian();
+    // Steps evaluate what moves alone; what is recorded is that of all parts.
+    let reduction = system.reduction();
+    let lean = system.lagrangian_on(&reduction.tree);
     let constrained = (!system.constraints.is_empty()).then(|| system.constrained());
     let canonical = matches!(method, Method::GaussLegendre { .. });
     let (mut position, mut velocity) = (system.position.clone(), system.velocity.clone());
@@ -58,10 +62,17 @@ pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver)
         work: Workspace::default(),
         state: vec![0.0; 2 * n],
     };
+    if let Method::ClosedForm = method {
+        let top = ClosedTop::of(system).ok_or_else(|| SimulationError::NoClosedForm.to_string())?;
+        let from = driver.start();
+        driver.closed_form(&mut |t, values| top.write(t - from, values), &mut state, &mut reading);
+        return Ok(());
+    }
     let power =
-        Power { system, lagrangian: &lagrangian, working: &working, work: Workspace::default(), forces: vec![0.0; n] };
+        Power { system, lagrangian: &lean, working: &working, work: Workspace::default(), forces: vec![0.0; n] };
     match &constrained {
-        Some(constrained) => {
+        Some(_) => {
+            let constrained = lean.clone().with_constraints(MechanismConstraints(system));
             let mut field = WithWork { field: constrained.motion(n), power, works };
             let done = driver.field(method, &mut field, &mut state, &mut reading);
             let name = |condition| MechanismConstraints(system).name(condition).unwrap_or_default().to_string();
@@ -75,12 +86,10 @@ pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver)
             })
         }
         None if canonical => {
-            let field = &mut WithWork { field: lagrangian.canonical_motion(n), power, works };
+            let field = &mut WithWork { field: lean.canonical_motion(n), power, works };
             driver.field(method, field, &mut state, &mut reading)
         }
-        None => {
-            driver.field(method, &mut WithWork { field: lagrangian.motion(n), power, works }, &mut state, &mut reading)
-        }
+        None => driver.field(method, &mut WithWork { field: lean.motion(n), power, works }, &mut state, &mut reading),
     }
 }
 

@@ -12,6 +12,7 @@ mod checkpoint;
 mod drive;
 mod energies;
 mod history;
+mod islands;
 mod mechanism;
 mod method;
 mod phase;
@@ -30,7 +31,7 @@ pub use system::{Central, Gravitation, MassPoint, NEWTONIAN_CONSTANT, Orbiter, P
 pub use timetable::{TimeSpan, Timetable};
 
 use crate::{Outcome, SimulationError};
-use checkpoint::Marks;
+use checkpoint::{Marks, Part};
 use drive::{Driver, Keeper, Observer};
 
 /// The progress of a run.
@@ -170,6 +171,11 @@ fn driven<'o>(
     (keeper, checkpoint): (Option<Keeper<'o>>, Option<MotionCheckpoint>),
     observer: Observer<'o>,
 ) -> MotionRun {
+    if let System::Mechanism(system) = system
+        && let Some(islands) = islands::of(system, method)
+    {
+        return islands::run(system, &islands, method, timetable, (keeper, checkpoint), observer);
+    }
     let names = system.names().into_iter().map(str::to_string).collect();
     let mut driver = Driver::new(names, timetable, observer, (keeper, checkpoint));
     let result = match system {
@@ -178,12 +184,17 @@ fn driven<'o>(
         System::Central(system) => systems::central(system, method, &mut driver),
         System::Phase(system) => phase::phase(system, method, &mut driver),
     };
-    let (history, report, time) = driver.finish();
-    let outcome = match result {
-        Err(why) => Outcome::Failed(why),
-        Ok(()) if report.ending == Ending::Stopped => Outcome::Interrupted,
-        Ok(()) => Outcome::Completed,
-    };
-    let Report { steps, rejected, evaluations, .. } = report;
-    MotionRun { outcome, time, steps, rejected, force_evaluations: evaluations, history }
+    MotionRun::of(driver.finish().0, result)
+}
+
+impl MotionRun {
+    fn of(Part { history, report, time }: Part, result: Result<(), String>) -> Self {
+        let outcome = match result {
+            Err(why) => Outcome::Failed(why),
+            Ok(()) if report.ending == Ending::Stopped => Outcome::Interrupted,
+            Ok(()) => Outcome::Completed,
+        };
+        let Report { steps, rejected, evaluations, .. } = report;
+        Self { outcome, time, steps, rejected, force_evaluations: evaluations, history }
+    }
 }

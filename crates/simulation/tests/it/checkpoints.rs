@@ -154,6 +154,29 @@ fn continued_pendulums_equal_unbroken_ones_bit_by_bit() {
 }
 
 #[test]
+fn continued_islands_equal_unbroken_ones_bit_by_bit() {
+    let joint = |name: &str, position| Joint {
+        parent: None,
+        offset: [0.0; 3],
+        motion: JointMotion::Revolute([0.0, 1.0, 0.0]),
+        coordinates: vec![Coordinate { name: name.into(), angular: true, position, velocity: 0.5 }],
+    };
+    let part = |joint, name: &str, length: f64| Part {
+        joint,
+        name: name.into(),
+        at: [0.0, 0.0, -length],
+        kind: PartKind::Particle(1.0),
+    };
+    let parts = vec![part(0, "slow", 1.0), part(1, "fast", 0.05)];
+    let system = Mechanism::new(vec![joint("slow", 1.0), joint("fast", -0.4)], parts, [0.0, 0.0, -9.81]);
+    let system = System::Mechanism(Box::new(system.unwrap_or_else(|error| panic!("{error}"))));
+    let timetable = Timetable::new(TimeSpan { start: 0.0, end: 5.0 }, 6, &[2.5]);
+    for method in [Method::DormandPrince { tolerance: 1e-11 }, Method::Verner { tolerance: 1e-11 }] {
+        assert!(20 <= compare(&system, method, &timetable, 5), "{method}");
+    }
+}
+
+#[test]
 fn a_checkpoint_of_another_run_or_version_is_refused_by_name() {
     let (method, timetable) =
         (Method::Verner { tolerance: 1e-11 }, Timetable::new(TimeSpan { start: 0.0, end: 4.0 }, 9, &[]));
