@@ -86,6 +86,13 @@ impl<S, P, F, C> ConstrainedMotion<'_, S, P, F, C> {
     pub const fn singular_count(&self) -> usize {
         self.passages.count()
     }
+    /// Whether no singular position is near: then a motion that is [begun anew](Self::restart) at the last accepted state goes on as
+    /// this one does, but for rounding.
+    #[must_use]
+    pub const fn is_apart(&self) -> bool {
+        let [now, next] = self.beside;
+        !now && !next && self.close_by == 0 && !self.passages.is_between()
+    }
     /// Forgets the run before: the next evaluation is the start of another one.
     pub fn restart(&mut self) {
         (self.rank, self.stopped, self.close_by) = (None, None, 0);

@@ -3,12 +3,13 @@
 use nalgebra::Vector3;
 use piola_integrators::{Field, State};
 use piola_kinematics::{Attitude, Holonomic, Placement, RigidBody};
-use piola_lagrangian::constraints::{self, Constraints as _};
+use piola_lagrangian::constraints;
 use piola_lagrangian::{LagrangianError, Reaction, Workspace};
 
 use super::drive::{Driver, Reading};
 use super::energies;
 pub(super) use super::energies::names as energy_names;
+use super::memory::{Memory, Remembering};
 use super::{History, Invariants, Method, PartReaction};
 use crate::SimulationError;
 use crate::constraints::{ConstrainedMechanism, MechanismConstraints};
@@ -73,11 +74,12 @@ pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver)
     match &constrained {
         Some(_) => {
             let constrained = lean.clone().with_constraints(MechanismConstraints(system));
-            let mut field = WithWork { field: constrained.motion(n), power, works };
+            let (constraints, memory) = (MechanismConstraints(system), Memory::shared());
+            driver.remember(memory.clone());
+            let motion = Remembering { motion: constrained.motion(n), constraints, memory: memory.clone(), before: 0 };
+            let mut field = WithWork { field: motion, power, works };
             let done = driver.field(method, &mut field, &mut state, &mut reading);
-            let name = |condition| MechanismConstraints(system).name(condition).unwrap_or_default().to_string();
-            let passed = field.field.singular_positions().iter();
-            driver.history().singular_positions = passed.map(|at| (at.t, name(at.condition))).collect();
+            driver.history().singular_positions = memory.passed.take();
             done.map_err(|why| {
                 let singular = why
                     .contains("singular")

@@ -14,6 +14,7 @@ mod energies;
 mod history;
 mod islands;
 mod mechanism;
+mod memory;
 mod method;
 mod phase;
 mod system;
@@ -31,7 +32,8 @@ pub use system::{Central, Gravitation, MassPoint, NEWTONIAN_CONSTANT, Orbiter, P
 pub use timetable::{TimeSpan, Timetable};
 
 use crate::{Outcome, SimulationError};
-use checkpoint::{Marks, Part};
+pub(crate) use checkpoint::Marks;
+use checkpoint::Part;
 use drive::{Driver, Keeper, Observer};
 
 /// The progress of a run.
@@ -107,8 +109,7 @@ pub fn simulate(
 /// As [`simulate`], with checkpoints: the run begins at one if there is one, and gives others to their keeper. A run that its
 /// observer stops gives a last one.
 ///
-/// The record is the same, to the last bit, as that of [`simulate`]. A mechanism with constraints gives no checkpoints: its
-/// motion remembers more than its state.
+/// The record is the same, to the last bit, as that of [`simulate`].
 ///
 /// # Errors
 /// [`SimulationError::CheckpointOfOtherVersion`], [`SimulationError::CheckpointOfOtherRun`],
@@ -153,15 +154,8 @@ pub fn resume(
     if let Some(checkpoint) = &checkpoint {
         checkpoint.check(system, method, timetable)?;
     }
-    let keeper: Option<Keeper<'_>> =
-        if gives_checkpoints(system) { Some((keeper, Marks::of(system, method, timetable))) } else { None };
-    Ok(driven(system, method, timetable, (keeper, checkpoint), observer))
-}
-
-/// Whether the motion of a system gives [checkpoints](MotionCheckpoint): all but mechanisms with constraints.
-#[must_use]
-pub fn gives_checkpoints(system: &System) -> bool {
-    !matches!(system, System::Mechanism(system) if !system.constraints.is_empty())
+    let keeper: Keeper<'_> = (keeper, Marks::of(system, method, timetable));
+    Ok(driven(system, method, timetable, (Some(keeper), checkpoint), observer))
 }
 
 fn driven<'o>(
