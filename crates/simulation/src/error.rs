@@ -136,6 +136,19 @@ pub enum SimulationError {
         "the closed form is there for bodies on ellipses about a fixed centre, and for a symmetric top on one spherical joint whose centre of mass is on the third axis of the joint, under gravity along z alone"
     )]
     NoClosedForm,
+    /// A direction that is no unit vector.
+    #[error("the {quantity} has length {length}; it must be a unit vector")]
+    NoUnitVector {
+        /// What the direction is.
+        quantity: &'static str,
+        /// Its length.
+        length: f64,
+    },
+    /// Rolling bodies beside constraints of other kinds.
+    #[error(
+        "bodies that roll stand beside constraints of other kinds; all constraints of a mechanism roll, or none does"
+    )]
+    RollingWithOthers,
     /// A method that constraints do not allow.
     #[error("the method {method} does not keep constraints: an adaptive one does, as dormand-prince-853")]
     ConstraintsNeedProjection {

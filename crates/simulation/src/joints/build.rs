@@ -134,7 +134,7 @@ impl Mechanism {
             velocity: Vec::new(),
             forces: Vec::new(),
             constraints: Vec::new(),
-            split: true,
+            simplify: true,
             reactions: false,
             questions: MechanismQuestions::default(),
         };

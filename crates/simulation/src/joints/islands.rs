@@ -61,7 +61,7 @@ impl Grouping {
                 ConstraintKind::Distance { ends, .. } | ConstraintKind::Loop { ends } => {
                     grouping.unite_ends(system, ends)
                 }
-                ConstraintKind::Prescribed { .. } => {}
+                ConstraintKind::Rolling { .. } | ConstraintKind::Prescribed { .. } => {}
             }
         }
         grouping
@@ -180,6 +180,7 @@ impl Mechanism {
         mechanism.forces = self.forces.iter().filter_map(force).collect();
         mechanism.constraints.retain(|constraint| match &constraint.kind {
             ConstraintKind::Distance { ends, .. } | ConstraintKind::Loop { ends } => here(moved(ends)),
+            ConstraintKind::Rolling { centre, .. } => here(moved(core::slice::from_ref(centre))),
             ConstraintKind::Prescribed { coordinate, .. } => here(Some(*coordinate)),
         });
         for Constraint { kind, .. } in &mut mechanism.constraints {

@@ -13,7 +13,7 @@ use crate::joints::{Island, Mechanism};
 /// The islands of a mechanism that a method gains by: several, whose steps adapt.
 pub(super) fn of(system: &Mechanism, method: Method) -> Option<Vec<Island>> {
     let adapts = matches!(method, Method::DormandPrince { .. } | Method::Verner { .. });
-    let islands = if adapts && system.split { system.islands() } else { Vec::new() };
+    let islands = if adapts && system.simplify { system.islands() } else { Vec::new() };
     (1 < islands.len()).then_some(islands)
 }
 

@@ -8,7 +8,7 @@
 //! | [`PhaseSystem`](crate::phase::PhaseSystem) | q̇ = ∂H/∂p, ṗ = −∂H/∂q | energy less ∫ ∂H/∂t dt |
 
 mod any_field;
-mod checkpoint;
+pub(crate) mod checkpoint;
 mod drive;
 mod energies;
 mod history;
@@ -32,8 +32,7 @@ pub use system::{Central, Gravitation, MassPoint, NEWTONIAN_CONSTANT, Orbiter, P
 pub use timetable::{TimeSpan, Timetable};
 
 use crate::{Outcome, SimulationError};
-pub(crate) use checkpoint::Marks;
-use checkpoint::Part;
+use checkpoint::{Marks, Part};
 use drive::{Driver, Keeper, Observer};
 
 /// The progress of a run.

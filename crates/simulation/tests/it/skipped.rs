@@ -147,7 +147,7 @@ fn islands_are_integrated_as_if_alone_and_recorded_together() {
     assert_eq!(parts, [&[0, 1, 2][..], &[3, 4][..]]);
     assert_eq!(islands[1].mechanism.coordinates, ["c", "d"]);
     let split = run(&system, FINE, 3.0);
-    let whole = run(&Mechanism { split: false, ..system.clone() }, FINE, 3.0);
+    let whole = run(&Mechanism { simplify: false, ..system.clone() }, FINE, 3.0);
     let tolerance =
         Tol::stated(1e-9, "errors of the tolerance 1e-14, which thirty swings of the fast pendulum magnify");
     assert_same_motion(&split.history, &whole.history, tolerance);

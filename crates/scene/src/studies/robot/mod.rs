@@ -1,6 +1,7 @@
 //! The motion of a tree of rigid bodies from a URDF or MJCF file.
 
 mod build;
+mod checkpoint;
 mod figure;
 mod gltf;
 mod results;
@@ -14,6 +15,7 @@ use super::StudyPlan;
 use crate::model::TimeSpan;
 use piola_document::words;
 
+pub(super) use checkpoint::RobotCheckpoint;
 pub use run::{RobotMotion, RobotSample};
 
 /// A tree with all that starts and drives it.
