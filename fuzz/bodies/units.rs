@@ -26,7 +26,7 @@ pub(super) fn run(data: &[u8]) {
         if let Ok(expression) = parse(text, &names, expected) {
             // One pass over the nodes and one evaluation have the same value, or neither is a number.
             let value: f64 = expression.evaluate(&|_| 0.5);
-            let found: f64 = piola_expression::Slopes::of(&expression).differentiate(|_| 0.5, |_, _| ());
+            let found: f64 = piola_expression::ExpressionSlopes::of(&expression).differentiate(|_| 0.5, |_, _| ());
             let same = value.to_bits() == found.to_bits() || (value.is_nan() && found.is_nan());
             assert!(same, "{text}: {value:e} {found:e}");
         }

@@ -13,4 +13,4 @@ pub mod text;
 pub use error::ExpressionError;
 pub use halves::Halves;
 pub use nodes::{DEEPEST_EXPRESSION, Expression, ExpressionNode, Function, Operation, Variable};
-pub use slopes::Slopes;
+pub use slopes::ExpressionSlopes;

@@ -19,7 +19,7 @@ use crate::{Expression, ExpressionNode as Node, Operation, Variable};
 ///
 /// # Example
 /// ```
-/// use piola_expression::{Expression, ExpressionNode as Node, Operation, Slopes, Variable};
+/// use piola_expression::{Expression, ExpressionNode as Node, Operation, ExpressionSlopes, Variable};
 /// // x² p
 /// let (x, p) = (Variable::Coordinate(0), Variable::Conjugate(0));
 /// let nodes = vec![
@@ -28,7 +28,7 @@ use crate::{Expression, ExpressionNode as Node, Operation, Variable};
 ///     Node::Variable(p),
 ///     Node::Operation(Operation::Product, 1, 2),
 /// ];
-/// let mut slopes = Slopes::of(&Expression::new(nodes)?);
+/// let mut slopes = ExpressionSlopes::of(&Expression::new(nodes)?);
 /// let (mut by_x, mut by_p) = (0.0, 0.0);
 /// let value = slopes.differentiate(
 ///     |variable| if variable == x { 3.0 } else { 5.0 },
@@ -39,7 +39,7 @@ use crate::{Expression, ExpressionNode as Node, Operation, Variable};
 /// ```
 #[doc(alias("reverse mode", "backpropagation", "gradient", "adjoint"))]
 #[derive(Clone, Debug)]
-pub struct Slopes<T = f64> {
+pub struct ExpressionSlopes<T = f64> {
     nodes: Vec<Node>,
     /// Nodes that depend on a variable, in their order.
     moving: Vec<usize>,
@@ -52,7 +52,7 @@ pub struct Slopes<T = f64> {
     moves: Vec<bool>,
 }
 
-impl<T: Real> Slopes<T> {
+impl<T: Real> ExpressionSlopes<T> {
     /// The slopes of an expression.
     #[must_use]
     pub fn of(expression: &Expression) -> Self {

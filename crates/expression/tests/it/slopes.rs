@@ -1,6 +1,6 @@
 //! Derivatives of random expressions in one pass, beside those of one variable at a time.
 
-use piola_expression::{Expression, ExpressionNode as Node, Function, Halves, Operation, Slopes, Variable};
+use piola_expression::{Expression, ExpressionNode as Node, ExpressionSlopes, Function, Halves, Operation, Variable};
 use piola_testkit::strategies::random_cases;
 use proptest::prelude::*;
 
@@ -51,7 +51,7 @@ fn reader(point: &[f64]) -> impl Fn(Variable) -> f64 + '_ {
 /// The value and the derivatives in one pass.
 fn slopes(expression: &Expression, point: &[f64]) -> (f64, [f64; 5]) {
     let mut found = [0.0; 5];
-    let value = Slopes::of(expression).differentiate(reader(point), |variable, slope| {
+    let value = ExpressionSlopes::of(expression).differentiate(reader(point), |variable, slope| {
         found[ALL.iter().position(|other| *other == variable).unwrap_or_default()] += slope;
     });
     (value, found)

@@ -7,7 +7,7 @@
 //! ```
 
 use nalgebra::{DMatrix, DVector};
-use piola_expression::{Halves, Slopes};
+use piola_expression::{ExpressionSlopes, Halves};
 use piola_hamiltonian::{HamiltonianError, hessian};
 use piola_integrators::internal::magnitudes_of_blocks;
 use piola_integrators::{Field, SecondOrder, Separable};
@@ -17,7 +17,7 @@ use crate::expression::Variable;
 
 /// Hamilton's equations of any H, with ∫ ∂H/∂t dt after them where H depends on time.
 pub(crate) struct PhaseField {
-    slopes: Slopes,
+    slopes: ExpressionSlopes,
     freedom: usize,
     driven: bool,
 }
@@ -25,7 +25,11 @@ pub(crate) struct PhaseField {
 impl PhaseField {
     pub(crate) fn of(system: &PhaseSystem) -> Self {
         let hamiltonian = &system.hamiltonian.0;
-        Self { slopes: Slopes::of(hamiltonian), freedom: system.freedom(), driven: hamiltonian.depends_on_time() }
+        Self {
+            slopes: ExpressionSlopes::of(hamiltonian),
+            freedom: system.freedom(),
+            driven: hamiltonian.depends_on_time(),
+        }
     }
 
     /// The field without ∫ ∂H/∂t dt.
@@ -96,8 +100,8 @@ impl Field for PhaseField {
 
 /// H = T(p) + V(q) as a pair for explicit symplectic methods: only the half that is asked for is evaluated.
 pub(crate) struct Split {
-    kinetic: Option<Slopes>,
-    potential: Option<Slopes>,
+    kinetic: Option<ExpressionSlopes>,
+    potential: Option<ExpressionSlopes>,
     freedom: usize,
 }
 
@@ -105,7 +109,7 @@ impl Split {
     /// Nothing where H is no such sum.
     pub(crate) fn of(system: &PhaseSystem) -> Option<Self> {
         let Halves { of_coordinates, of_conjugates } = system.hamiltonian.0.halves()?;
-        let slopes = |half: &Option<_>| half.as_ref().map(Slopes::of);
+        let slopes = |half: &Option<_>| half.as_ref().map(ExpressionSlopes::of);
         let (kinetic, potential) = (slopes(&of_conjugates), slopes(&of_coordinates));
         Some(Self { kinetic, potential, freedom: system.freedom() })
     }

@@ -6,7 +6,7 @@ use piola_simulation::internal::Marks;
 use serde::{Deserialize, Serialize};
 
 use super::RobotStudy;
-use super::run::RobotSample;
+use super::sample::RobotSample;
 use crate::SceneError;
 use crate::run::Checkpoints;
 

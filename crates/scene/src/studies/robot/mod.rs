@@ -6,6 +6,7 @@ mod figure;
 mod gltf;
 mod results;
 mod run;
+mod sample;
 
 use std::path::PathBuf;
 
@@ -16,7 +17,8 @@ use crate::model::TimeSpan;
 use piola_document::words;
 
 pub(super) use checkpoint::RobotCheckpoint;
-pub use run::{RobotMotion, RobotSample};
+pub use run::RobotMotion;
+pub use sample::RobotSample;
 
 /// A tree with all that starts and drives it.
 ///

@@ -7,35 +7,12 @@ use std::rc::Rc;
 use piola_integrators::{DormandPrince853, Ending, Field, IntegratorsError, State, Tolerance};
 use piola_multibody::{MultibodyError, TreeWorkspace};
 use piola_simulation::motion::CheckpointKeeper as _;
-use serde::{Deserialize, Serialize};
 
 use super::RobotStudy;
 use super::checkpoint::{PIECE, Renewable, RobotCheckpoint};
+use super::sample::RobotSample;
 use crate::run::{Checkpoints, Outcome};
 use crate::studies::observer::Observer;
-
-/// A recorded instant.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RobotSample {
-    /// Time, s.
-    pub t: f64,
-    /// Coordinates.
-    pub q: Vec<f64>,
-    /// Rates.
-    pub v: Vec<f64>,
-    /// Kinetic energy, potential energy in gravity, energy of springs, J.
-    pub energies: [f64; 3],
-    /// Work of torques, forces and damping since the start, J.
-    pub work: f64,
-}
-
-impl RobotSample {
-    /// What the balance of energy compares: it is constant.
-    fn balance(&self) -> f64 {
-        self.energies.iter().sum::<f64>() - self.work
-    }
-}
 
 /// A run with all that it recorded, however far it came.
 #[derive(Debug, Clone, Default)]
