@@ -15,7 +15,7 @@ impl Surroundings<'_> {
         let largest = direction.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
         let scaled = direction.map(|x| x / largest);
         let length = scaled.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if !(0.0 < largest) {
+        if largest <= 0.0 {
             return Err(Mistake::new(record.place_of(key), format!("`{key}` is zero"))
                 .valid("a direction, as [0, 0, 1]")
                 .into());

@@ -168,9 +168,7 @@ impl Newtonian {
         let second = hessian(&PhaseExpression(kinetic), &zero, &zero, 0.0).ok()?;
         let by_momenta = second.view((n, n), (n, n)).into_owned();
         let inertia = by_momenta.clone().try_inverse()?;
-        if !(by_momenta.norm() * inertia.norm() < CONDITION) {
-            return None;
-        }
+        (by_momenta.norm() * inertia.norm() < CONDITION).then_some(())?;
         let mut split = Split::of(system)?;
         let mut drift = DVector::zeros(n);
         split.velocity(0.0, &zero, drift.as_mut_slice()).ok()?;
