@@ -12,7 +12,9 @@ pub(super) fn corpus(folder: &Path) -> Vec<Vec<u8>> {
 
 /// Runs a body over a corpus and over `count` texts made from it. Returns how many it has run.
 pub(super) fn over(corpus: &[Vec<u8>], count: usize, tokens: &[&str], body: impl Fn(&[u8])) -> usize {
-    corpus.iter().for_each(|text| body(text));
+    for text in corpus {
+        body(text);
+    }
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
     for _ in 0..count {
         let mut text = corpus[random.below(corpus.len())].clone();

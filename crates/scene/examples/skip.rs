@@ -267,16 +267,15 @@ end = 20
 ";
 
 fn parts() -> String {
-    let mut text = PARTS.to_string();
-    for i in 0..24 {
+    let part = |i: u32| {
         let parent = if i < 12 { "pin" } else { "ground" };
         let place = format!("[0, {:.1}, {:.1}]", 0.1 * f64::from(i % 3), -0.1 * f64::from(1 + i % 12));
-        text.push_str(&format!(
+        format!(
             "[[joint]]\nname = 'j{i}'\nparent = '{parent}'\ntype = 'fixed'\noffset = {place}\n\
              [[rigid_body]]\nname = 'b{i}'\njoint = 'j{i}'\nmass = 1\ninertia = [0.1, 0.1, 0.1]\n"
-        ));
-    }
-    text
+        )
+    };
+    PARTS.to_string() + &(0..24).map(part).collect::<Vec<_>>().concat()
 }
 
 const OUTPUT: &str = "\n[output]\nsamples = 201\n";

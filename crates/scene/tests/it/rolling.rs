@@ -110,7 +110,7 @@ fn a_disc_that_spins_fast_enough_rolls_evenly_on_a_circle() {
         assert_close("angles", &state[3..6], &[omega * t, theta, spin * t], tolerance);
     }
     // v = ω×r at the start: |v| = |R (ψ̇ + Ω cos θ)| less what the contact adds.
-    let speed = (vx * vx + vy * vy).sqrt();
+    let speed = vx.hypot(vy);
     assert_close("speed", &[speed], &[(r * (spin + omega * cosine)).abs()], Tol::ulps(32.0));
 }
 

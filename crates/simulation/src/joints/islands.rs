@@ -59,7 +59,7 @@ impl Grouping {
         for Constraint { kind, .. } in &system.constraints {
             match kind {
                 ConstraintKind::Distance { ends, .. } | ConstraintKind::Loop { ends } => {
-                    grouping.unite_ends(system, ends)
+                    grouping.unite_ends(system, ends);
                 }
                 ConstraintKind::Rolling { .. } | ConstraintKind::Prescribed { .. } => {}
             }
