@@ -37,7 +37,7 @@ const SCENES: [(&str, &str); 4] = [
          [[particle]]\nname = 'pin'\njoint = 'crank'\nmass = 1.0\nat = [1, 0, 0]\n\
          [[particle]]\nname = 'block'\njoint = 'slider'\nmass = 1.0\n\
          [[constraint]]\nname = 'rod'\ntype = 'distance'\nfrom = 'crank'\nfrom_at = [1, 0, 0]\nto = 'slider'\nlength = 1\n\
-         [time]\nend = 2000\n[integrator]\nmethod = 'dormand-prince-853'\ntolerance = 1e-10\n[output]\nsamples = 2001\n",
+         [time]\nend = 1000\n[integrator]\nmethod = 'dormand-prince-853'\ntolerance = 1e-10\n[output]\nsamples = 2001\n",
     ),
 ];
 
