@@ -37,11 +37,9 @@ fn results(arguments: &RunArguments, asked: &Path) -> Result<Folder, SceneError>
 }
 
 fn run_study(study: &Study, arguments: &RunArguments) -> Exit {
-    if arguments.resume {
-        return refuse("a study leaves no checkpoints: run it without --resume", arguments.scene.json);
-    }
-    if arguments.checkpoint.is_some() {
-        return refuse("a study leaves no checkpoints: run it without --checkpoint", arguments.scene.json);
+    let flags = [(arguments.resume, "--resume"), (arguments.checkpoint.is_some(), "--checkpoint")];
+    if let (false, Some((_, flag))) = (studies::has_checkpoints(study), flags.iter().find(|(given, _)| *given)) {
+        return refuse(&format!("a study leaves no checkpoints: run it without {flag}"), arguments.scene.json);
     }
     let folder = match results(arguments, &study.output.folder) {
         Ok(folder) => folder,
@@ -50,11 +48,24 @@ fn run_study(study: &Study, arguments: &RunArguments) -> Exit {
     let plan = StudyPlan::of(study);
     let interrupt = Interrupt::listen();
     let mut progress = ProgressLine::new(&plan.name, 1);
-    let run = studies::run(study, |fraction| {
+    let mut checkpoints = Checkpoints::new(&folder, Duration::from_secs_f64(arguments.checkpoint.unwrap_or(PAUSE)));
+    if !arguments.resume {
+        checkpoints.remove();
+    }
+    let run = studies::run_with_checkpoints(study, arguments.resume, &mut checkpoints, |fraction| {
         progress.update(fraction);
         if interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     progress.finish();
+    let run = match run {
+        Ok((run, from)) => {
+            if arguments.resume {
+                note(&went_on(from));
+            }
+            run
+        }
+        Err(error) => return invalid(&error, arguments.scene.json),
+    };
     let mut written = run.write(&folder, study, &plan);
     if arguments.report {
         let texts = [("Results", run.table(study, &plan)), ("Plan", plan.to_string())];
@@ -65,6 +76,12 @@ fn run_study(study: &Study, arguments: &RunArguments) -> Exit {
     } else {
         print(&run.table(study, &plan));
         print(&listing(&folder, &written));
+    }
+    if let Some(failure) = checkpoints.failure() {
+        note(&format!("the last checkpoint is not written: {failure}"));
+    }
+    if run.outcome != Outcome::Interrupted && written.failures.is_empty() {
+        checkpoints.remove();
     }
     let end = format!("what was found until then is in {}", folder.path().display());
     ended(&run.outcome, &written, &end)
@@ -82,9 +99,6 @@ fn run_motion(scene: &Scene, arguments: &RunArguments) -> Exit {
             return refuse(&format!("this run takes {cost}; with --yes it starts all the same"), arguments.scene.json);
         }
         Ok(_) => {}
-    }
-    if arguments.checkpoint.is_some() && !run::has_checkpoints(scene) {
-        note("a mechanism with constraints leaves no checkpoints: --checkpoint has no effect");
     }
     let pause = arguments.checkpoint.unwrap_or(PAUSE);
     let mut checkpoints = Checkpoints::new(&folder, Duration::from_secs_f64(pause));
@@ -133,12 +147,16 @@ fn run_motion(scene: &Scene, arguments: &RunArguments) -> Exit {
 /// The checkpoint that a run goes on from, if there is one; tells which it is.
 fn begin_again(scene: &Scene, plan: &Plan, checkpoints: &Checkpoints) -> Result<Option<MotionCheckpoint>, SceneError> {
     let from = checkpoints.last(scene, plan)?;
-    note(&match &from {
-        Some(from) => format!("the run goes on at {} s", from.time()),
-        None if run::has_checkpoints(scene) => "there is no checkpoint: the run begins at its start".to_owned(),
-        None => "a mechanism with constraints leaves no checkpoints: the run begins at its start".to_owned(),
-    });
+    note(&went_on(from.as_ref().map(MotionCheckpoint::time)));
     Ok(from)
+}
+
+/// Where a run goes on, in words.
+fn went_on(from: Option<f64>) -> String {
+    from.map_or_else(
+        || "there is no checkpoint: the run begins at its start".to_owned(),
+        |time| format!("the run goes on at {time} s"),
+    )
 }
 
 /// Prints the errors of a run and gives its exit code.

@@ -215,7 +215,7 @@ impl ExpressionNode {
     }
 }
 
-fn apply<T: Real>(function: Function, x: T) -> T {
+pub(crate) fn apply<T: Real>(function: Function, x: T) -> T {
     match function {
         Function::Sqrt => x.sqrt(),
         Function::Exp => x.exp(),
@@ -238,7 +238,7 @@ fn apply<T: Real>(function: Function, x: T) -> T {
     }
 }
 
-fn combine<T: Real>(operation: Operation, a: T, b: T) -> T {
+pub(crate) fn combine<T: Real>(operation: Operation, a: T, b: T) -> T {
     match operation {
         Operation::Sum => a + b,
         Operation::Difference => a - b,

@@ -21,6 +21,25 @@ impl Expression {
         self.nodes.contains(&ExpressionNode::Variable(Variable::Time))
     }
 
+    /// The expression with other variables in the places of its own.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_expression::{Expression, ExpressionNode as Node, Variable};
+    /// let first = Expression::new(vec![Node::Variable(Variable::Coordinate(0))])?;
+    /// let third = first.with_variables(|_| Variable::Coordinate(2));
+    /// assert_eq!(third.nodes(), [Node::Variable(Variable::Coordinate(2))]);
+    /// # Ok::<(), piola_expression::ExpressionError>(())
+    /// ```
+    #[must_use]
+    pub fn with_variables(&self, other: impl Fn(Variable) -> Variable) -> Self {
+        let nodes = self.nodes.iter().map(|node| match node {
+            ExpressionNode::Variable(variable) => ExpressionNode::Variable(other(*variable)),
+            node => *node,
+        });
+        Self { nodes: nodes.collect() }
+    }
+
     /// Whether it is a sum of terms of which each depends on coordinates alone or on momenta alone, and none on time.
     ///
     /// ```text
@@ -49,12 +68,12 @@ impl Expression {
         true
     }
 
-    fn is_number(&self, node: usize) -> bool {
+    pub(crate) fn is_number(&self, node: usize) -> bool {
         self.needs(node) == [false; 3]
     }
 
     /// Whether coordinates, conjugates and time stand below a node.
-    fn needs(&self, node: usize) -> [bool; 3] {
+    pub(crate) fn needs(&self, node: usize) -> [bool; 3] {
         let (mut found, mut below) = ([false; 3], vec![node]);
         while let Some(node) = below.pop() {
             if let ExpressionNode::Variable(variable) = self.nodes[node] {

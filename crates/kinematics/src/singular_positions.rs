@@ -105,6 +105,12 @@ impl Passages {
         self.count
     }
 
+    /// Whether a position lies between the last accepted state and one that may be accepted.
+    #[must_use]
+    pub const fn is_between(&self) -> bool {
+        self.between.is_some()
+    }
+
     /// The state at a time, if it is accepted, is too close to a singular position to be looked at.
     pub fn pass_by(&mut self, t: f64) {
         (self.t_next, self.between, self.passed_by) = (Some(t), None, true);

@@ -100,9 +100,13 @@ table! {
 }
 
 /// The kinds of constraints.
-static CONSTRAINT_TYPES: [Word; 3] = [
+static CONSTRAINT_TYPES: [Word; 4] = [
     word("distance", "two points stay at one distance, as the ends of a rod without mass"),
     word("loop", "two points are one: a joint that closes a loop"),
+    word(
+        "rolling",
+        "a sphere, or with `axis` a thin disc, rolls without slip on the plane on which it stands at the start; stands beside no other type",
+    ),
     word("prescribed", "a coordinate moves as an expression of the time says; its drive does work"),
 ];
 
@@ -128,6 +132,16 @@ table! {
         to_at: Kind::Numbers(D::LENGTH, &[3]), Default("[0.0, 0.0, 0.0]"), only_for TIES;
         /// The distance; that at the start when absent.
         length: quantity(D::LENGTH, Positive), Optional, only_for &["distance"];
+        /// The joint, particle or rigid body whose place is the centre of the sphere or disc.
+        body: Name, Required, only_for &["rolling"];
+        /// The centre in its frame.
+        centre_at: Kind::Numbers(D::LENGTH, &[3]), Default("[0.0, 0.0, 0.0]"), only_for &["rolling"];
+        /// The radius. Rates of lengths follow from those of angles, as the velocity of the centre from the turn.
+        radius: quantity(D::LENGTH, Positive), Required, only_for &["rolling"];
+        /// The axis of a disc in the frame of `body`, of any length; a sphere has none.
+        axis: Kind::Numbers(D::NONE, &[3]), Optional, only_for &["rolling"];
+        /// The normal of the plane in space, of any length, to the side of the body.
+        normal: Kind::Numbers(D::NONE, &[3]), Default("[0.0, 0.0, 1.0]"), only_for &["rolling"];
         /// The coordinate that is prescribed.
         coordinate: Text, Required, only_for &["prescribed"];
         /// Its value, an expression of `t`.

@@ -277,7 +277,7 @@ table! {
 pub static METHODS: [Word; 14] = [
     word(
         "auto",
-        "chosen by the planner, which says why; ellipses of `[central]` take the closed form, unless `step`, `tolerance` or `closed_form` of `[reference]` is given",
+        "chosen by the planner, which says why; ellipses of `[central]` and a heavy symmetric top take their closed forms, unless `step`, `tolerance` or `closed_form` of `[reference]` is given",
     ),
     word(
         "composition-2",
@@ -294,7 +294,10 @@ pub static METHODS: [Word; 14] = [
     word("verner-98", "explicit Runge–Kutta of order 9(8), adaptive step"),
     word("nystrom-86", "explicit Nyström of order 8(6), adaptive step; forces must not depend on velocity"),
     word("nystrom-1210", "the same of order 12(10)"),
-    word("closed-form", "Kepler's motion at every instant, without steps, for ellipses of `[central]` alone"),
+    word(
+        "closed-form",
+        "Kepler's motion or that of Lagrange's top at every instant, without steps: for ellipses of `[central]`, or one body of a `[mechanism]` on a spherical joint, symmetric about its third axis with the centre of mass on it, under gravity along −z alone",
+    ),
 ];
 
 table! {
@@ -304,10 +307,12 @@ table! {
         method: Kind::Choice(&METHODS), Default("\"auto\"");
         /// Step of a method of fixed step; chosen by the planner when absent.
         step: quantity(D::TIME, Positive), Optional;
-        /// Relative tolerance of a step of an adaptive method, at least 4.5e-16. When absent 1e-12 for bodies that attract each other,
-        /// 1e-15 for mechanisms, 1e-14 under a Hamiltonian, and 4.4e-16 about a fixed centre, if the closed form is not taken. The plan
-        /// shows it.
+        /// Relative tolerance of a step of an adaptive method, at least 4.5e-16. When absent one at which the errors
+        /// of the method are about those of rounding, and 1e-12 for bodies that attract each other where none dominates. The plan shows it.
         tolerance: quantity(D::NONE, Fraction), Optional;
+        /// Whether steps see of a `[mechanism]` only what moves: adaptive methods integrate independent parts by themselves, each with
+        /// steps of its own; parts that stand still are left out, and fixed joints are merged with those that carry them.
+        simplify: Flag, Default("true");
     }
 }
 

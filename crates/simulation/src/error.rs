@@ -123,6 +123,32 @@ pub enum SimulationError {
         /// The name of the method.
         method: String,
     },
+    /// A method for q̈ = f(q) with an H whose equations have no such form.
+    #[error(
+        "the method {method} needs H = ½ p·W p + w·p + V(q) with a constant W; an explicit one as verner-98 takes any H"
+    )]
+    NoConstantInertia {
+        /// The name of the method.
+        method: String,
+    },
+    /// A closed form of a system that has none here.
+    #[error(
+        "the closed form is there for bodies on ellipses about a fixed centre, and for a symmetric top on one spherical joint whose centre of mass is on the third axis of the joint, under gravity along z alone"
+    )]
+    NoClosedForm,
+    /// A direction that is no unit vector.
+    #[error("the {quantity} has length {length}; it must be a unit vector")]
+    NoUnitVector {
+        /// What the direction is.
+        quantity: &'static str,
+        /// Its length.
+        length: f64,
+    },
+    /// Rolling bodies beside constraints of other kinds.
+    #[error(
+        "bodies that roll stand beside constraints of other kinds; all constraints of a mechanism roll, or none does"
+    )]
+    RollingWithOthers,
     /// A method that constraints do not allow.
     #[error("the method {method} does not keep constraints: an adaptive one does, as dormand-prince-853")]
     ConstraintsNeedProjection {

@@ -12,6 +12,12 @@ mod outcome;
 pub mod phase;
 pub mod questions;
 
+/// What other crates of Piola use; no part of the interface.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::motion::checkpoint::Marks;
+}
+
 pub use error::SimulationError;
 pub use outcome::Outcome;
 pub use piola_expression as expression;

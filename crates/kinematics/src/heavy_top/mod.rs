@@ -146,6 +146,32 @@ impl HeavyTop {
         (attitude, self.axes * Vector3::new(across.re, across.im, self.spin))
     }
 
+    /// The turns since the start in `t` seconds, rad: how far (φ + ψ)/2 and (φ − ψ)/2 have grown, with all whole turns.
+    ///
+    /// An attitude has its angles but for whole turns. These tell how many there were. φ is that of precession, ψ that of the own
+    /// turn, about the arm.
+    ///
+    /// # Accuracy
+    /// Some tens of ulps of the turns. Where the axis passes through the vertical itself, half a turn is that before or after it.
+    ///
+    /// # Example
+    /// A top that sleeps turns about the vertical alone.
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_kinematics::{Attitude, HeavyTop, Inertia};
+    /// let inertia = Inertia::principal([1.0, 1.0, 0.5])?;
+    /// let (arm, omega) = (Vector3::new(0.0, 0.0, 1.0), Vector3::new(0.0, 0.0, 20.0));
+    /// let sleeping = HeavyTop::new(&inertia, arm, Attitude::identity(), omega)?;
+    /// assert!((sleeping.turns(3.0)[0] - 30.0).abs() < 1e-12); // half of 20 rad/s
+    /// # Ok::<(), piola_kinematics::KinematicsError>(())
+    /// ```
+    #[must_use]
+    pub fn turns(&self, t: f64) -> [f64; 2] {
+        let at = |t: f64| self.turns.angles(&self.nutation, &self.nutation.phase(t), t);
+        let (now, start) = (at(t), at(0.0));
+        [now[0] - start[0], now[1] - start[1]]
+    }
+
     /// The period of the angle θ between the axis and the vertical, s: infinite for the top that rises for ever towards the
     /// vertical. Of steady precession it is the period of a small disturbance.
     #[must_use]

@@ -8,6 +8,8 @@
 //!
 //! so that nothing is lost where y₁ = 1 + u₁ is small, or zero.
 
+use core::f64::consts::PI;
+
 use nalgebra::Complex;
 
 use super::nutation::{Nutation, Phase};
@@ -45,6 +47,11 @@ impl Turns {
     /// The directions of (φ + ψ)/2 and (φ − ψ)/2.
     pub(super) fn at(&self, nutation: &Nutation, phase: &Phase, t: f64) -> [Complex<f64>; 2] {
         [self.sum.at(nutation, phase, t, self.own), self.difference.at(nutation, phase, t, -self.own)]
+    }
+
+    /// (φ + ψ)/2 and (φ − ψ)/2, rad, each but for a constant.
+    pub(super) fn angles(&self, nutation: &Nutation, phase: &Phase, t: f64) -> [f64; 2] {
+        [self.sum.angle(nutation, phase, t, self.own), self.difference.angle(nutation, phase, t, -self.own)]
     }
 }
 
@@ -115,7 +122,8 @@ impl Part {
         cube / 3.0 * third_kind([cn * cn, dn * dn, 1.0], 1.0 + self.bend * (sn * sn))
     }
 
-    fn at(&self, nutation: &Nutation, phase: &Phase, t: f64, own: f64) -> Complex<f64> {
+    /// The angle of the integral without a peak, and v as half periods and functions, counted from where the peak is.
+    fn counted(&self, nutation: &Nutation, phase: &Phase, t: f64, own: f64) -> (f64, Phase) {
         let &Phase { mut half_periods, mut functions } = phase;
         if self.is_from_highest {
             let [sn, cn, dn] = functions;
@@ -128,6 +136,20 @@ impl Part {
         }
         let whole = if 0.0 < half_periods.abs() { half_periods * self.over_half_period } else { 0.0 };
         let angle = (own + self.rate) * t + self.factor * (whole + self.integral(functions));
+        (angle, Phase { half_periods, functions })
+    }
+
+    /// The angle itself, continuous in time, to some tens of ulps of it.
+    fn angle(&self, nutation: &Nutation, phase: &Phase, t: f64, own: f64) -> f64 {
+        let (angle, Phase { half_periods, functions: [sn, cn, dn] }) = self.counted(nutation, phase, t, own);
+        let Some([along, across]) = self.arc else { return angle };
+        // Half a turn in each half period.
+        let half_turns = PI * half_periods * 1.0_f64.copysign(across);
+        angle + half_turns + (across * sn).atan2(along * (cn * dn))
+    }
+
+    fn at(&self, nutation: &Nutation, phase: &Phase, t: f64, own: f64) -> Complex<f64> {
+        let (angle, Phase { half_periods, functions }) = self.counted(nutation, phase, t, own);
         let (sine, cosine) = angle.sin_cos();
         let direction = Complex::new(cosine, sine);
         let Some([along, across]) = self.arc else { return direction };

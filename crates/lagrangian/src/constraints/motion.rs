@@ -16,6 +16,9 @@ use crate::{Forces, Potential};
 /// The least share of its own of a constraint, of the largest so far, below which a state lies beside a singular position.
 const BESIDE: f64 = 0.2;
 
+/// The share from which a run may be begun anew: it then knows the usual share again, or nearly.
+const APART: f64 = 0.7;
+
 /// The least share below which a step must not end: there rounding, ε/x² at the distance x, exceeds the error of the method.
 const CLOSE_BY: f64 = 1e-3;
 
@@ -54,6 +57,8 @@ pub struct ConstrainedMotion<'a, S, P, F, C> {
     /// The largest sᵢ, and the largest of the least shares, so far.
     largest: Vec<f64>,
     usual_share: f64,
+    /// The share at the last look.
+    last_share: f64,
     /// The independent constraint with the least share, at the last look.
     weakest: usize,
     /// A state before its projection, or brought onto the branch, and scratch of the same length.
@@ -86,6 +91,13 @@ impl<S, P, F, C> ConstrainedMotion<'_, S, P, F, C> {
     pub const fn singular_count(&self) -> usize {
         self.passages.count()
     }
+    /// Whether no singular position is near: then a motion that is [begun anew](Self::restart) at the last accepted state goes on as
+    /// this one does, but for rounding.
+    #[must_use]
+    pub const fn is_apart(&self) -> bool {
+        let [now, next] = self.beside;
+        !now && !next && self.close_by == 0 && !self.passages.is_between() && APART <= self.last_share
+    }
     /// Forgets the run before: the next evaluation is the start of another one.
     pub fn restart(&mut self) {
         (self.rank, self.stopped, self.close_by) = (None, None, 0);
@@ -109,7 +121,8 @@ impl<S, P, F, C> ConstrainedMotion<'_, S, P, F, C> {
             }
         }
         self.usual_share = self.usual_share.max(share);
-        share / self.usual_share
+        self.last_share = share / self.usual_share;
+        self.last_share
     }
 }
 
@@ -130,6 +143,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
             passages: Passages::of(count, coordinates),
             largest: vec![0.0; count],
             usual_share: 0.0,
+            last_share: 0.0,
             weakest: 0,
             stage: vec![0.0; 2 * coordinates],
             scratch: vec![0.0; 2 * coordinates],

@@ -4,6 +4,7 @@ mod cards;
 mod figures;
 mod fits;
 mod fitting;
+mod fuzz;
 #[cfg(feature = "history")]
 mod history;
 mod layouts;

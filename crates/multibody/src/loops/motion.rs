@@ -120,6 +120,13 @@ impl<F> ClosedMotion<'_, F> {
         self.passages.count()
     }
 
+    /// Whether no singular position is near: then a motion that is [begun anew](Self::restart) at the last accepted state goes on as
+    /// this one does, but for rounding.
+    pub const fn is_apart(&self) -> bool {
+        let [now, next] = self.beside;
+        !now && !next && self.close_by == 0 && !self.passages.is_between()
+    }
+
     /// Forgets the run before: the next evaluation is the start of another one.
     pub fn restart(&mut self) {
         self.work.usual_rank = 0;

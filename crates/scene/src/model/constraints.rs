@@ -4,11 +4,25 @@ use piola_document::units::Dimension;
 use piola_document::{Mistake, Record};
 use piola_simulation::constraints::{Constraint, ConstraintKind};
 
-use super::Builder;
 use super::forces::Surroundings;
+use super::{Builder, System};
 use piola_expression::text;
 
 impl Surroundings<'_> {
+    /// A direction of any length as a unit vector.
+    fn direction(record: &Record, key: &str, direction: [f64; 3]) -> Result<[f64; 3], Box<Mistake>> {
+        // Divided by the largest component first: squares neither overflow nor vanish.
+        let largest = direction.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+        let scaled = direction.map(|x| x / largest);
+        let length = scaled.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if largest <= 0.0 {
+            return Err(Mistake::new(record.place_of(key), format!("`{key}` is zero"))
+                .valid("a direction, as [0, 0, 1]")
+                .into());
+        }
+        Ok(scaled.map(|x| x / length))
+    }
+
     fn tie(&self, record: &Record) -> Result<ConstraintKind, Box<Mistake>> {
         match record.text("type").unwrap_or_default() {
             "prescribed" => {
@@ -21,6 +35,23 @@ impl Surroundings<'_> {
                         .into());
                 }
                 Ok(ConstraintKind::Prescribed { coordinate, motion })
+            }
+            "rolling" => {
+                let unit =
+                    |key: &str| record.vector(key).map(|direction| Self::direction(record, key, direction)).transpose();
+                let centre = self.anchor(record, "body", "centre_at")?;
+                if self.mechanism.tree.coordinates_of(&centre).next().is_none() {
+                    return Err(Mistake::new(record.place_of("body"), "nothing moves the body")
+                        .valid("a body that coordinates move, as on a free joint")
+                        .into());
+                }
+                let (radius, normal) = (record.number("radius").unwrap_or_default(), unit("normal")?);
+                Ok(ConstraintKind::Rolling {
+                    centre,
+                    radius,
+                    axis: unit("axis")?,
+                    normal: normal.unwrap_or([0.0, 0.0, 1.0]),
+                })
             }
             kind => {
                 let ends = [self.anchor(record, "from", "from_at")?, self.anchor(record, "to", "to_at")?];
@@ -48,7 +79,10 @@ impl Builder<'_> {
         self.unique_names(&[records]);
         let mut constraints = Vec::with_capacity(records.len());
         for record in records {
-            if record.has("length") && record.number("length").is_none() {
+            if ["length", "radius"].iter().any(|key| record.has(key) && record.number(key).is_none()) {
+                continue;
+            }
+            if record.text("type") == Some("rolling") && !record.has("radius") {
                 continue;
             }
             match surroundings.tie(record) {
@@ -70,6 +104,20 @@ impl Builder<'_> {
                 let key = if integrator.has("step") { "step" } else { "method" };
                 self.refuse(integrator.place_of(key), "a fixed step with constraints", adaptive);
             }
+        }
+    }
+
+    /// Refuses the closed form of a mechanism that has none.
+    pub(super) fn has_closed_form(&mut self, scene: &Record, system: Option<&System>) {
+        if let (Some(System::Mechanism(system)), Some(integrator)) = (system, scene.record("integrator"))
+            && integrator.text("method") == Some("closed-form")
+            && !system.has_closed_form()
+        {
+            self.refuse(
+                integrator.place_of("method"),
+                "the mechanism has no closed form",
+                "one body on a spherical joint, symmetric about the third axis of the joint, with its centre of mass on it, under gravity along -z alone; or another method",
+            );
         }
     }
 

@@ -50,7 +50,16 @@ impl Builder<'_> {
             Mistake::new(table.place.clone(), error.to_string()).valid("forces and constraints of finite numbers")
         };
         let mechanism = built.map_err(|error| self.wrong(refused(error))).ok()?;
-        Some(Mechanism { reactions, questions, ..mechanism })
+        if mechanism.rolls() && (questions.equilibrium || questions.modes) {
+            let place = scene.record("questions").map_or(table.place.clone(), |questions| questions.place.clone());
+            return self.refused(
+                place,
+                "equilibria and modes of bodies that roll",
+                "energies = true, or no [questions]",
+            );
+        }
+        let simplify = scene.record("integrator").and_then(|integrator| integrator.flag("simplify")).unwrap_or(true);
+        Some(Mechanism { simplify, reactions, questions, ..mechanism })
     }
 
     fn joint(&mut self, record: &Record, names: &[&str]) -> Option<Joint> {

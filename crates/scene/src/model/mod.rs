@@ -185,6 +185,7 @@ impl<'d> Builder<'d> {
         let time = self.time(record, period);
         let integrator = self.integrator(record);
         let output = output(record, &name);
+        self.has_closed_form(record, system.as_ref());
         self.keeps_constraints(record);
         self.has_reactions(record);
         self.answerable(record, time);
@@ -280,11 +281,11 @@ impl<'d> Builder<'d> {
             let adaptive =
                 ["dormand-prince-853", "verner-98", "nystrom-86", "nystrom-1210"].contains(&request.method.as_str());
             let closed = request.method == "closed-form";
-            if closed && !record.has("central") {
+            if closed && !record.has("central") && !record.has("mechanism") {
                 self.refuse(
                     table.place_of("method"),
-                    "the closed form in a scene that is not of [central]",
-                    "[central], or another method",
+                    "the closed form in a scene that is not of [central] or [mechanism]",
+                    "[central] with ellipses, a [mechanism] that is a symmetric top, or another method",
                 );
             }
             let fixed = !adaptive && request.method != "auto";

@@ -8,15 +8,20 @@ use piola_gravitation::kepler::KeplerMotion;
 
 /// Steps a method of order 8 takes for each turn of the fastest motion: errors near rounding on mild ellipses.
 const STEPS_PER_TURN: f64 = 100.0;
+/// Up to so many turns about a body that dominates an adaptive method of order 12 takes less time for the same error than a symplectic
+/// one: the errors of the one grow with the square of the time, those of the other with the time.
+const FEW_TURNS: f64 = 500.0;
 /// Relative tolerance when none is asked for.
 const TOLERANCE: f64 = 1e-12;
 /// Relative tolerance for errors near rounding: the least that methods take.
 const FINE_TOLERANCE: f64 = 2.0 * f64::EPSILON;
-/// Tolerance of mechanisms, whose evaluations cost more.
-const MECHANISM_TOLERANCE: f64 = 1e-15;
-
-/// Tolerance under a Hamiltonian whose step adapts.
-const PHASE_TOLERANCE: f64 = 1e-14;
+/// Relative tolerances at which the errors of a method are about those of rounding, on measured mechanisms and Hamiltonians: a smaller one
+/// takes longer and errs no less.
+const FINE_VERNER: f64 = 1e-13;
+const FINE_NYSTROM_86: f64 = 1e-12;
+const FINE_NYSTROM_1210: f64 = 1e-14;
+/// Tolerances of a step from which Dormand's and Prince's pair takes less time for the same error than Verner's, on measured mechanisms.
+const COARSE: f64 = 1e-12;
 
 /// The method and why.
 pub(super) fn method(scene: &Scene) -> (Method, String) {
@@ -55,8 +60,9 @@ fn adaptive(scene: &Scene, tolerance: f64, why: &str) -> (Method, String) {
     const AT_THE_END: f64 = 10.0;
     let tolerance = scene.integrator.tolerance.unwrap_or(tolerance);
     let character = match &scene.system {
+        System::Phase(system) if system.has_constant_inertia() => Character::of_positions(),
         // The equations of a mechanism are given as rates of first order.
-        System::Mechanism(_) | System::Phase(_) => Character::of_first_order(),
+        System::Mechanism(_) | System::Phase(_) => return first_order(tolerance, why),
         System::Gravitation(system) if system.post_newtonian.is_some() => {
             Character::of_first_order().with_uneven_steps()
         }
@@ -81,12 +87,23 @@ fn adaptive(scene: &Scene, tolerance: f64, why: &str) -> (Method, String) {
     }
 }
 
+/// The adaptive method for equations of first order.
+fn first_order(tolerance: f64, why: &str) -> (Method, String) {
+    if tolerance < COARSE {
+        let reason = "of order 9: below a tolerance of 1e-12 it takes less time for the same error than one of order 8";
+        return (Method::Verner { tolerance }, format!("{why}; {reason}"));
+    }
+    let reason = "of order 8: from a tolerance of 1e-12 it takes less time for the same error than one of order 9";
+    (Method::DormandPrince { tolerance }, format!("{why}; {reason}"))
+}
+
 /// Whether the forces depend on positions alone.
 fn depends_on_positions_alone(system: &System) -> bool {
     match system {
         System::Gravitation(system) => system.post_newtonian.is_none(),
         System::Central(_) => true,
-        System::Mechanism(_) | System::Phase(_) => false,
+        System::Phase(system) => system.has_constant_inertia(),
+        System::Mechanism(_) => false,
     }
 }
 
@@ -121,13 +138,17 @@ fn automatic(scene: &Scene) -> (Method, String) {
             )
         }
         System::Gravitation(system) => {
-            if request.tolerance.is_some() || (request.step.is_none() && !hierarchical(system)) {
+            let few = turns(scene).is_some_and(|turns| turns <= FEW_TURNS);
+            if request.tolerance.is_some() || (request.step.is_none() && (few || !hierarchical(system))) {
                 let why = if request.tolerance.is_some() {
                     "integrator.tolerance asks for an adaptive step"
-                } else {
+                } else if !hierarchical(system) {
                     "no body dominates, so that close encounters may come: the step adapts"
+                } else {
+                    "over so few turns the energy of an adaptive method does not drift by more than rounding"
                 };
-                return adaptive(scene, TOLERANCE, why);
+                let tolerance = if hierarchical(system) { FINE_NYSTROM_1210 } else { TOLERANCE };
+                return adaptive(scene, tolerance, why);
             }
             let (step, why) = step(scene, Order::Eight);
             (
@@ -166,7 +187,12 @@ fn automatic(scene: &Scene) -> (Method, String) {
             adaptive(scene, FINE_TOLERANCE, &why)
         }
         System::Phase(system) => phase(scene, system),
-        System::Mechanism(_) => match request.step {
+        System::Mechanism(system) => match request.step {
+            None if request.tolerance.is_none() && system.has_closed_form() => (
+                Method::ClosedForm,
+                "a symmetric top about a fixed point under its weight, which has a closed form; errors do not grow with steps"
+                    .to_string(),
+            ),
             Some(step) => (
                 Method::GaussLegendre { order: Order::Eight, step },
                 "integrator.step asks for a fixed step, and the inertia metric depends on the coordinates: implicit, symplectic"
@@ -174,7 +200,7 @@ fn automatic(scene: &Scene) -> (Method, String) {
             ),
             None => adaptive(
                 scene,
-                MECHANISM_TOLERANCE,
+                FINE_VERNER,
                 "the inertia metric depends on the coordinates, so that no explicit symplectic method applies; the step adapts",
             ),
         },
@@ -183,24 +209,20 @@ fn automatic(scene: &Scene) -> (Method, String) {
 
 /// The method for a Hamiltonian.
 fn phase(scene: &Scene, system: &PhaseSystem) -> (Method, String) {
-    let request = &scene.integrator;
-    let separable = system.hamiltonian.0.is_separable();
-    // One step fits the whole motion where the turn at the start tells of it.
-    let at_start = system.turn(scene.time.start).unwrap_or(f64::INFINITY);
-    let varies = |fastest: f64| 2.0 * fastest < at_start;
-    let uneven = request.step.is_none() && separable && system.fastest_turn(scene.time).is_some_and(varies);
-    if request.tolerance.is_some() || uneven || (request.step.is_none() && !separable) {
-        let why = if request.tolerance.is_some() {
-            "integrator.tolerance asks for an adaptive step"
-        } else if uneven {
-            "turns along a trial of the motion are less than half as long as at the start; the step adapts"
-        } else {
-            "H is no sum T(p) + V(q), which explicit symplectic methods need; the step adapts"
-        };
-        return adaptive(scene, PHASE_TOLERANCE, why);
+    if scene.integrator.step.is_none() {
+        if !system.has_constant_inertia() {
+            let why = "H is no sum of V(q) and a T(p) of second degree, which methods for accelerations need; the step adapts";
+            return adaptive(scene, FINE_VERNER, why);
+        }
+        let why = "H = T(p) + V(q) with T of second degree: accelerations depend on coordinates alone; the step adapts";
+        if scene.integrator.tolerance.is_some() {
+            return adaptive(scene, TOLERANCE, why);
+        }
+        let reason = "at this tolerance its errors are about those of rounding, between its steps too";
+        return (Method::Nystrom86 { tolerance: FINE_NYSTROM_86 }, format!("{why}; {reason}"));
     }
     let (step, why) = step(scene, Order::Eight);
-    if separable {
+    if system.hamiltonian.0.is_separable() {
         let why = format!("H = T(p) + V(q): explicit, symplectic, energy does not drift; {why}");
         return (Method::Composition { order: Order::Eight, step }, why);
     }

@@ -4,7 +4,7 @@ use piola_simulation::constraints::{Constraint, ConstraintKind};
 use piola_simulation::forces::Force;
 use piola_simulation::questions::MechanismQuestions;
 
-use super::Plan;
+use super::{Method, Plan};
 use crate::model::Mechanism;
 
 /// The number of works that are integrated with the motion.
@@ -26,6 +26,40 @@ pub(super) fn tables(system: &Mechanism) -> impl Iterator<Item = &'static str> {
 }
 
 impl Plan {
+    /// How the motion is found, and what of the mechanism its steps do not see.
+    pub(super) fn evaluation_items(&mut self, system: &Mechanism) {
+        if self.method == Method::ClosedForm {
+            self.compute("top of Lagrange", "in closed form at every recorded instant");
+            self.skip("accelerations and steps", "the closed form needs neither");
+            return;
+        }
+        self.compute("accelerations", "inertia metric and bias in one pass, by exact derivatives of the placement");
+        let adapts = self.method.step().is_none();
+        let islands = if adapts { system.islands().len() } else { 1 };
+        if !system.simplify {
+            self.skip("simplifications", "integrator.simplify = false");
+            return;
+        }
+        if 1 < islands {
+            let why = "they share no coordinate, force or constraint: each is integrated with steps of its own";
+            self.compute(&format!("{islands} independent parts"), why);
+            self.skip("influence of independent parts on each other", "there is none");
+        }
+        let reduction = system.reduction();
+        if !reduction.still.is_empty() {
+            let names: Vec<&str> = reduction.still.iter().map(|part| system.parts[*part].name.as_str()).collect();
+            self.skip("parts that stand still", format!("no coordinate moves them: {}", names.join(", ")));
+        }
+        if 0 < reduction.merged_joints {
+            let count = reduction.merged_joints;
+            self.skip("fixed joints", format!("merged with the joints that carry them: {count}"));
+        }
+        if 0 < reduction.merged_parts {
+            let count = reduction.merged_parts;
+            self.skip("parts of one joint", format!("evaluated as one body: {count} fewer"));
+        }
+    }
+
     pub(super) fn force_items(&mut self, system: &Mechanism) {
         for Force { name, kind } in &system.forces {
             let what = match (kind.stores(), kind.works()) {
@@ -55,6 +89,12 @@ impl Plan {
         for Constraint { name, kind } in &system.constraints {
             let what = match kind {
                 ConstraintKind::Distance { length, .. } => format!("a distance of {length} m, by a multiplier"),
+                ConstraintKind::Rolling { radius, axis, .. } => {
+                    let what = if axis.is_some() { "disc" } else { "sphere" };
+                    format!(
+                        "a {what} of radius {radius} m rolls: the rates that are free are integrated, nothing slips"
+                    )
+                }
                 ConstraintKind::Loop { .. } => "a closed loop, by three multipliers".to_string(),
                 ConstraintKind::Prescribed { .. } => {
                     "a prescribed motion, by a multiplier: its drive works".to_string()
@@ -64,6 +104,8 @@ impl Plan {
         }
         if system.constraints.is_empty() {
             self.skip("multipliers", "no [[constraint]]");
+        } else if system.rolls() {
+            self.skip("multipliers", "bodies that roll need none");
         } else {
             let constrained = system.constrained();
             let why = match constrained.assemble(&system.position, &system.velocity, start) {

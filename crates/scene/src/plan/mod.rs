@@ -174,10 +174,7 @@ impl Plan {
                 );
             }
             System::Mechanism(system) => {
-                self.compute(
-                    "accelerations",
-                    "inertia metric and bias in one pass, by exact derivatives of the placement",
-                );
+                self.evaluation_items(system);
                 if system.gravity.iter().all(|g| g.abs() <= 0.0) {
                     self.skip("gravity", "mechanism.gravity is zero");
                 } else {

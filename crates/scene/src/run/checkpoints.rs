@@ -4,7 +4,10 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use piola_charts::{ChartsError, Folder};
-use piola_simulation::motion::{CheckpointKeeper, MotionCheckpoint, gives_checkpoints};
+use piola_simulation::SimulationError;
+use piola_simulation::motion::{CheckpointKeeper, MotionCheckpoint};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use crate::model::Scene;
 use crate::plan::{self, Plan};
@@ -85,18 +88,39 @@ impl Checkpoints {
     /// # Errors
     /// [`CheckpointError`] in a [`SceneError`]: it cannot be read, or it is of another run or of another version of Piola.
     pub fn last(&self, scene: &Scene, plan: &Plan) -> Result<Option<MotionCheckpoint>, SceneError> {
+        self.read(|checkpoint: &MotionCheckpoint| checkpoint.check(&scene.system, plan.method, &plan::timetable(scene)))
+    }
+
+    /// The checkpoint in the folder, if there is one and it passes a check.
+    pub(crate) fn read<C: DeserializeOwned>(
+        &self,
+        check: impl FnOnce(&C) -> Result<(), SimulationError>,
+    ) -> Result<Option<C>, SceneError> {
         let path = self.path();
         let text = match std::fs::read_to_string(&path) {
             Ok(text) => text,
             Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(cause) => return Err(CheckpointError::Unreadable { path, cause: cause.to_string() }.into()),
         };
-        let checkpoint: MotionCheckpoint = serde_json::from_str(&text)
+        let checkpoint: C = serde_json::from_str(&text)
             .map_err(|cause| CheckpointError::Unreadable { path: path.clone(), cause: cause.to_string() })?;
-        checkpoint
-            .check(&scene.system, plan.method, &plan::timetable(scene))
-            .map_err(|cause| CheckpointError::Foreign { path, cause })?;
+        check(&checkpoint).map_err(|cause| CheckpointError::Foreign { path, cause })?;
         Ok(Some(checkpoint))
+    }
+
+    /// Writes a checkpoint into the folder.
+    pub(crate) fn write(&mut self, checkpoint: &impl Serialize) {
+        /// A checkpoint holds the whole record: of a long one more than a part of the time would go into writing.
+        const SHARE: u32 = 20;
+        let begun = Instant::now();
+        // All keys are texts: nothing here can fail to serialise.
+        let text = serde_json::to_string(checkpoint).unwrap_or_default();
+        self.failure = self.folder.write(FILE, &text).err();
+        (self.written, self.seen, self.unwatched) = (Instant::now(), Duration::ZERO, 0);
+        self.pause = self.asked.max(SHARE * begun.elapsed());
+        if self.asked.is_zero() {
+            self.pause = Duration::ZERO;
+        }
     }
 
     /// Removes the checkpoint: the run is done.
@@ -133,22 +157,6 @@ impl CheckpointKeeper for Checkpoints {
     }
 
     fn keep(&mut self, checkpoint: &MotionCheckpoint) {
-        /// A checkpoint holds the whole record: of a long one more than a part of the time would go into writing.
-        const SHARE: u32 = 20;
-        let begun = Instant::now();
-        // All keys are texts: nothing here can fail to serialise.
-        let text = serde_json::to_string(checkpoint).unwrap_or_default();
-        self.failure = self.folder.write(FILE, &text).err();
-        (self.written, self.seen, self.unwatched) = (Instant::now(), Duration::ZERO, 0);
-        self.pause = self.asked.max(SHARE * begun.elapsed());
-        if self.asked.is_zero() {
-            self.pause = Duration::ZERO;
-        }
+        self.write(checkpoint);
     }
-}
-
-/// Whether runs of a scene leave checkpoints.
-#[must_use]
-pub fn has_checkpoints(scene: &Scene) -> bool {
-    gives_checkpoints(&scene.system)
 }

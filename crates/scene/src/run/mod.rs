@@ -10,7 +10,7 @@ use std::time::Instant;
 use piola_simulation::motion::{MotionRun, resume, simulate};
 
 pub use answers::Answers;
-pub use checkpoints::{Checkpoints, has_checkpoints};
+pub use checkpoints::Checkpoints;
 pub use comparison::{BodyErrors, ErrorAt, Errors};
 pub use piola_simulation::Outcome;
 pub use piola_simulation::motion::{

@@ -6,8 +6,10 @@ use std::time::Instant;
 
 use serde_json::{Map, Value, json};
 
+use super::observer::Observer;
 use super::{Study, StudyPlan, Subject, room, wavefront};
-use crate::run::Outcome;
+use crate::SceneError;
+use crate::run::{Checkpoints, Outcome};
 use piola_charts::{Folder, Written};
 
 /// The results of a study.
@@ -66,7 +68,78 @@ pub struct StudyRun {
 /// # Ok::<(), piola_scene::SceneError>(())
 /// ```
 pub fn run(study: &Study, mut observer: impl FnMut(f64) -> ControlFlow<()>) -> StudyRun {
+    begun(study, Before::Nothing, None, &mut observer)
+}
+
+/// Whether runs of a study leave checkpoints: those of a `[robot]` do.
+#[must_use]
+pub fn has_checkpoints(study: &Study) -> bool {
+    study.subject.has_checkpoints()
+}
+
+/// As [`run`], with checkpoints in the folder of the results. With `resume` the run goes on from the last one, if there is one; its
+/// time (s) is returned with the run.
+///
+/// # Errors
+/// [`CheckpointError`](crate::CheckpointError) in a [`SceneError`]: the checkpoint cannot be read, or it is of another run.
+pub fn run_with_checkpoints(
+    study: &Study,
+    resume: bool,
+    checkpoints: &mut Checkpoints,
+    mut observer: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<(StudyRun, Option<f64>), SceneError> {
+    let from = if resume { Before::of(study, checkpoints)? } else { Before::Nothing };
+    let time = from.time();
+    Ok((begun(study, from, Some(checkpoints), &mut observer), time))
+}
+
+impl Subject {
+    #[cfg(feature = "robots")]
+    const fn has_checkpoints(&self) -> bool {
+        matches!(self, Self::Robot(_))
+    }
+
+    #[cfg(not(feature = "robots"))]
+    const fn has_checkpoints(&self) -> bool {
+        false
+    }
+}
+
+/// What a run goes on from.
+enum Before {
+    Nothing,
+    #[cfg(feature = "robots")]
+    Robot(Box<super::robot::RobotCheckpoint>),
+}
+
+impl Before {
+    fn of(study: &Study, checkpoints: &Checkpoints) -> Result<Self, SceneError> {
+        #[cfg(feature = "robots")]
+        if let Subject::Robot(robot) = &study.subject {
+            return Ok(robot.last(checkpoints)?.map_or(Self::Nothing, |last| Self::Robot(Box::new(last))));
+        }
+        let _ = (study, checkpoints);
+        Ok(Self::Nothing)
+    }
+
+    fn time(&self) -> Option<f64> {
+        match self {
+            Self::Nothing => None,
+            #[cfg(feature = "robots")]
+            Self::Robot(checkpoint) => Some(checkpoint.time()),
+        }
+    }
+}
+
+fn begun(
+    study: &Study,
+    from: Before,
+    checkpoints: Option<&mut Checkpoints>,
+    mut observer: &mut Observer<'_>,
+) -> StudyRun {
     let begun = Instant::now();
+    #[cfg(not(feature = "robots"))]
+    let _ = (from, checkpoints);
     let (findings, outcome) = match &study.subject {
         Subject::Wavefront(wavefront) => {
             let (found, outcome) = wavefront.run(&mut observer);
@@ -88,7 +161,8 @@ pub fn run(study: &Study, mut observer: impl FnMut(f64) -> ControlFlow<()>) -> S
         }
         #[cfg(feature = "robots")]
         Subject::Robot(robot) => {
-            let (found, outcome) = robot.run(&mut observer);
+            let from = if let Before::Robot(checkpoint) = from { Some(*checkpoint) } else { None };
+            let (found, outcome) = robot.run(from, checkpoints, &mut observer);
             (Findings::Robot(Box::new(found)), outcome)
         }
     };

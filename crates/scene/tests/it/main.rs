@@ -8,12 +8,14 @@ mod constraints;
 #[cfg(all(feature = "solutions", feature = "spectral"))]
 mod figures;
 mod forces;
+mod fuzz;
 mod hamiltonian;
 mod hostile;
 mod plan;
 mod reference;
 #[cfg(feature = "robots")]
 mod robot;
+mod rolling;
 mod run;
 mod settings;
 mod shipped;

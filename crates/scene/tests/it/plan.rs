@@ -49,7 +49,9 @@ fn method_follows_from_the_forces() {
     assert_eq!(plan(&tight).method.to_string(), "nystrom-1210");
     let relativistic = replaced(&heavy, "softening = 0.0", "post_newtonian = true");
     assert_eq!(plan(&relativistic).method.to_string(), "gauss-legendre-8");
-    assert_eq!(plan(TOP).method.to_string(), "verner-98");
+    assert_eq!(plan(TOP).method.to_string(), "closed-form");
+    assert_eq!(plan(&format!("{TOP}[integrator]\ntolerance = 1e-13\n")).method.to_string(), "verner-98");
+    assert_eq!(plan(&format!("{TOP}[integrator]\ntolerance = 1e-12\n")).method.to_string(), "dormand-prince-853");
     assert_eq!(plan(&format!("{TOP}[integrator]\nstep = '1 ms'\n")).method.to_string(), "gauss-legendre-8");
     assert_eq!(plan(ORBIT).method.to_string(), "nystrom-1210");
     assert_eq!(plan(&replaced(ORBIT, "eccentricity = 0.5", "eccentricity = 0.0")).method.to_string(), "composition-8");
@@ -102,12 +104,50 @@ fn a_closed_form_evaluates_no_force_and_agrees_with_an_integration() {
 #[test]
 fn a_closed_form_is_refused_where_there_is_none() {
     let of = |text: &str, more: &str| format!("{text}[integrator]\nmethod = 'closed-form'\n{more}");
-    let foreign = ["the closed form in a scene that is not of [central]", "[central], or another method"];
+    let foreign =
+        ["the closed form in a scene that is not of [central] or [mechanism]", "a symmetric top, or another method"];
     assert_mistake(&of(PAIR, ""), "'closed-form'", &foreign);
     for (key, line) in [("step", "step = 0.125\n"), ("tolerance", "tolerance = 0.125\n")] {
         let found = format!("`{key}` with the method closed-form");
         assert_mistake(&of(ORBIT, line), "0.125", &[&found, "neither step nor tolerance: a closed form has no steps"]);
     }
+}
+
+#[test]
+fn a_top_is_taken_from_its_closed_form_and_another_body_is_integrated() {
+    let planned = plan(TOP);
+    assert!(skips(&planned, "accelerations and steps"), "{planned}");
+    let closed = format!("{TOP}[integrator]\nmethod = 'closed-form'\n");
+    let run = |text: &str| {
+        let scene = scene(text);
+        piola_scene::run::run(&scene, &Plan::of(&scene), |_| core::ops::ControlFlow::Continue(()))
+    };
+    let (found, expected) = (run(&closed), run(&format!("{TOP}[integrator]\ntolerance = 1e-14\n")));
+    assert_eq!((found.outcome, found.force_evaluations), (piola_scene::run::Outcome::Completed, 0));
+    assert!(0 < expected.force_evaluations);
+    for (found, expected) in found.history.coordinates.iter().zip(&expected.history.coordinates) {
+        let why = "of the integration over ten turns";
+        piola_testkit::assert_close("angles and rates", found, expected, Tol::stated(1e-11, why));
+    }
+    let lopsided = replaced(&closed, "inertia = [0.75, 0.75, 0.25]", "inertia = [0.75, 0.7, 0.25]");
+    assert_mistake(&lopsided, "'closed-form'", &["the mechanism has no closed form", "symmetric about the third axis"]);
+}
+
+#[test]
+fn what_steps_do_not_see_is_skipped_with_its_reason() {
+    let more = "[[joint]]\nname = 'wall'\ntype = 'fixed'\n[[joint]]\nname = 'other'\ntype = 'revolute'\naxis = [0, 1, 0]\n\
+                [[joint]]\nname = 'rod'\nparent = 'other'\ntype = 'fixed'\noffset = [0, 0, -1]\n\
+                [[particle]]\nname = 'nail'\njoint = 'wall'\nmass = 1\n[[particle]]\nname = 'bob'\njoint = 'rod'\nmass = 1\n";
+    let planned = plan(&format!("{TOP}{more}"));
+    assert_eq!(planned.method.to_string(), "verner-98");
+    let still = planned.skipped.iter().find(|item| item.what == "parts that stand still");
+    assert!(still.is_some_and(|item| item.why.ends_with("nail")), "{planned}");
+    for what in ["fixed joints", "influence of independent parts on each other"] {
+        assert!(skips(&planned, what), "{what}: {planned}");
+    }
+    assert!(planned.computed.iter().any(|item| item.what == "2 independent parts"), "{planned}");
+    let whole = plan(&format!("{TOP}{more}[integrator]\nsimplify = false\n"));
+    assert!(skips(&whole, "simplifications"), "{whole}");
 }
 
 #[test]

@@ -33,6 +33,18 @@ pub enum ConstraintKind {
         /// The points.
         ends: [Anchor; 2],
     },
+    /// A sphere or a thin disc that rolls on a plane, on which it stands at the start: the velocity of its material point in contact is
+    /// zero.
+    Rolling {
+        /// Its centre.
+        centre: Anchor,
+        /// Radius R, m, greater than zero.
+        radius: f64,
+        /// The axis of a disc, a unit vector in the frame of its joint; none of a sphere.
+        axis: Option<[f64; 3]>,
+        /// The normal of the plane in space, a unit vector that points to the side of the body.
+        normal: [f64; 3],
+    },
     /// A coordinate that moves as prescribed: φ = q − f(t).
     Prescribed {
         /// The coordinate.

@@ -7,8 +7,10 @@
 //! the forces of [`Mechanism::condition_names`].
 
 mod kinds;
+mod rolling;
 
 pub use kinds::{Constraint, ConstraintKind};
+pub(crate) use rolling::RollingMechanism;
 
 use piola_lagrangian::constraints::{Constrained, Constraints};
 use piola_numerics::Real;
@@ -73,6 +75,20 @@ impl Mechanism {
                     ends.iter().try_for_each(|end| self.tree.holds(end))?;
                 }
                 ConstraintKind::Loop { ends } => ends.iter().try_for_each(|end| self.tree.holds(end))?,
+                ConstraintKind::Rolling { centre, radius, axis, normal } => {
+                    finite("radius", [*radius])?;
+                    if *radius <= 0.0 {
+                        return Err(SimulationError::NotPositive { quantity: "radius", value: *radius });
+                    }
+                    for direction in axis.iter().chain([normal]) {
+                        let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+                        let is_unit = (length - 1.0).abs() <= 1e-12;
+                        if !is_unit {
+                            return Err(SimulationError::NoUnitVector { quantity: "direction of rolling", length });
+                        }
+                    }
+                    self.tree.holds(centre)?;
+                }
                 ConstraintKind::Prescribed { coordinate, motion } => {
                     exists("prescribed motion", *coordinate, coordinates)?;
                     let depends = motion.coordinates().max(motion.conjugates());
@@ -81,6 +97,10 @@ impl Mechanism {
                     }
                 }
             }
+        }
+        let rolling = constraints.iter().filter(|constraint| matches!(constraint.kind, ConstraintKind::Rolling { .. }));
+        if (1..constraints.len()).contains(&rolling.count()) {
+            return Err(SimulationError::RollingWithOthers);
         }
         self.constraints = constraints;
         Ok(self)
@@ -104,7 +124,7 @@ impl Mechanism {
     pub fn condition_names(&self) -> Vec<String> {
         let names = self.constraints.iter().flat_map(|Constraint { name, kind }| match kind {
             ConstraintKind::Distance { .. } => vec![format!("tension of {name} (N)")],
-            ConstraintKind::Loop { .. } => {
+            ConstraintKind::Loop { .. } | ConstraintKind::Rolling { .. } => {
                 ["x", "y", "z"].iter().map(|axis| format!("force of {name} along {axis} (N)")).collect()
             }
             ConstraintKind::Prescribed { coordinate, .. } => {
@@ -133,12 +153,13 @@ impl Mechanism {
 }
 
 impl ConstraintKind {
-    /// The number of conditions φ.
+    /// The number of conditions φ; none of what holds velocities alone.
     #[must_use]
     pub fn conditions(&self) -> usize {
         match self {
             Self::Distance { .. } | Self::Prescribed { .. } => 1,
             Self::Loop { .. } => 3,
+            Self::Rolling { .. } => 0,
         }
     }
 }
@@ -168,6 +189,7 @@ impl Constraints for MechanismConstraints<'_> {
                         out[first + i] = gap[i];
                     }
                 }
+                ConstraintKind::Rolling { .. } => {}
                 ConstraintKind::Prescribed { coordinate, motion } => {
                     let prescribed = motion.evaluate(&|variable| match variable {
                         Variable::Time => t,

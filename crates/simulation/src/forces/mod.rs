@@ -52,7 +52,12 @@ impl Mechanism {
     /// See [`with_forces`](Self::with_forces).
     #[must_use]
     pub fn lagrangian(&self) -> MechanismLagrangian<'_> {
-        Lagrangian::of(&self.tree)
+        self.lagrangian_on(&self.tree)
+    }
+
+    /// Lagrange's equations with the parts of another tree of the same motion.
+    pub(crate) fn lagrangian_on<'m>(&'m self, tree: &'m JointTree) -> MechanismLagrangian<'m> {
+        Lagrangian::of(tree)
             .with_uniform_gravity(self.gravity)
             .with_potential(MechanismPotential(self))
             .with_forces(AppliedForces(self))

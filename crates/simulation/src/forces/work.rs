@@ -51,6 +51,13 @@ impl Mechanism {
     }
 }
 
+impl Mechanism {
+    /// The number of works.
+    pub(crate) fn work_count(&self) -> usize {
+        self.forces.iter().filter(|force| force.kind.works()).count() + usize::from(self.is_driven())
+    }
+}
+
 /// The forces that work, by index.
 pub(crate) fn working(forces: &[Force]) -> Vec<usize> {
     (0..forces.len()).filter(|&i| forces[i].kind.works()).collect()

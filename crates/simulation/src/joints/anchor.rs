@@ -1,6 +1,7 @@
 //! Points that joints carry, to which forces and constraints are tied.
 
 use nalgebra::Vector3;
+use piola_kinematics::Attitude;
 use piola_numerics::Real;
 
 use super::{Frame, JointTree, build};
@@ -63,11 +64,16 @@ impl JointTree {
 
     /// The place of an anchor in space, m, where `q` gives the coordinates by index.
     pub fn place_of<T: Real>(&self, anchor: &Anchor, q: &dyn Fn(usize) -> T) -> Vector3<T> {
+        self.frame_of(anchor, q).0
+    }
+
+    /// The place of an anchor and the attitude of its joint, where `q` gives the coordinates by index.
+    pub(crate) fn frame_of<T: Real>(&self, anchor: &Anchor, q: &dyn Fn(usize) -> T) -> (Vector3<T>, Attitude<T>) {
         let mut frame = Frame::ground();
         for &joint in &anchor.path {
             frame = self.joints[joint].frame(&frame, q);
         }
-        frame.point(anchor.at)
+        (frame.point(anchor.at), frame.attitude)
     }
 
     /// Coordinates that move an anchor, by index.

@@ -134,6 +134,7 @@ impl Mechanism {
             velocity: Vec::new(),
             forces: Vec::new(),
             constraints: Vec::new(),
+            simplify: true,
             reactions: false,
             questions: MechanismQuestions::default(),
         };

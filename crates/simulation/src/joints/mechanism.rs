@@ -40,6 +40,9 @@ pub struct Mechanism {
     pub forces: Vec<Force>,
     /// What holds it; [`with_constraints`](Self::with_constraints) checks and sets it.
     pub constraints: Vec<Constraint>,
+    /// Whether an adaptive method integrates each of the [islands](Self::islands) by itself, with steps of its own, and whether steps
+    /// evaluate the [reduced](Self::reduction) tree.
+    pub simplify: bool,
     /// Whether reactions are recorded.
     pub reactions: bool,
     /// What is asked besides the motion.

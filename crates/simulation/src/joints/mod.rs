@@ -3,7 +3,10 @@
 mod anchor;
 mod build;
 mod independence;
+mod islands;
 mod mechanism;
+mod reduction;
+mod top;
 
 use nalgebra::Vector3;
 use piola_kinematics::{Attitude, Holonomic, Placement};
@@ -12,7 +15,10 @@ use piola_numerics::Real;
 pub use anchor::Anchor;
 pub(crate) use build::finite;
 pub use build::{Coordinate, DEEPEST, Joint, JointMotion, Part, PartKind};
+pub use islands::Island;
 pub use mechanism::{Mechanism, PartName};
+pub use reduction::Reduction;
+pub(crate) use top::ClosedTop;
 
 /// A tree of joints as a placement map over any scalar.
 ///

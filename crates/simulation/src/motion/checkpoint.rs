@@ -35,12 +35,25 @@ pub(super) struct MotionCheckpointBody {
     pub(super) next: usize,
     pub(super) landing: usize,
     pub(super) history: History,
+    /// The islands of a mechanism that are done.
+    #[serde(default)]
+    pub(super) done: Vec<Part>,
+}
+
+/// An island of a mechanism that was integrated, however far it came.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Part {
+    pub(super) history: History,
+    pub(super) report: Report,
+    /// Time reached, s.
+    pub(super) time: f64,
 }
 
 /// The version and the run that a checkpoint belongs to.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Marks {
+pub struct Marks {
     version: String,
     run: u64,
 }
@@ -57,8 +70,31 @@ pub(super) enum Stage {
 impl Marks {
     /// Of a run: the version of this crate, and a fingerprint of the system with its questions, the method and the instants.
     pub(super) fn of(system: &System, method: Method, timetable: &Timetable) -> Self {
-        let run = Fingerprint::of(format_args!("{system:?}{method:?}{timetable:?}"));
+        Self::of_run(format_args!("{system:?}{method:?}{timetable:?}"))
+    }
+
+    /// Of a run by a text in which all stands that it depends on.
+    #[must_use]
+    pub fn of_run(text: fmt::Arguments<'_>) -> Self {
+        let run = Fingerprint::of(text);
         Self { version: env!("CARGO_PKG_VERSION").to_string(), run }
+    }
+}
+
+impl Marks {
+    /// Checks that these are the marks expected.
+    ///
+    /// # Errors
+    /// [`SimulationError::CheckpointOfOtherVersion`], [`SimulationError::CheckpointOfOtherRun`].
+    pub fn check(&self, expected: Self) -> Result<(), SimulationError> {
+        if self.version != expected.version {
+            let (found, expected) = (self.version.clone(), expected.version);
+            return Err(SimulationError::CheckpointOfOtherVersion { found, expected });
+        }
+        if self.run != expected.run {
+            return Err(SimulationError::CheckpointOfOtherRun);
+        }
+        Ok(())
     }
 }
 
@@ -105,14 +141,7 @@ impl MotionCheckpoint {
     /// [`SimulationError::CheckpointOfOtherVersion`], [`SimulationError::CheckpointOfOtherRun`],
     /// [`SimulationError::CheckpointChanged`].
     pub fn check(&self, system: &System, method: Method, timetable: &Timetable) -> Result<(), SimulationError> {
-        let expected = Marks::of(system, method, timetable);
-        if self.marks.version != expected.version {
-            let (found, expected) = (self.marks.version.clone(), expected.version);
-            return Err(SimulationError::CheckpointOfOtherVersion { found, expected });
-        }
-        if self.marks.run != expected.run {
-            return Err(SimulationError::CheckpointOfOtherRun);
-        }
+        self.marks.check(Marks::of(system, method, timetable))?;
         let Self { fingerprint, body, .. } = self;
         if *fingerprint != Fingerprint::of(format_args!("{body:?}")) {
             return Err(SimulationError::CheckpointChanged);

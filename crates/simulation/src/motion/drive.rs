@@ -5,6 +5,7 @@
 
 use core::fmt::Display;
 use core::ops::ControlFlow;
+use std::rc::Rc;
 
 use piola_integrators::{
     Checkpoint, Composition, DormandPrince853, Ending, Field, GaussLegendre, IntegratorsError, Nystrom, Nystrom86,
@@ -12,8 +13,10 @@ use piola_integrators::{
 };
 
 use super::any_field::{AdaptiveStep, AnyField, FieldWithText, SecondOrderWithText, SeparableWithText};
-use super::checkpoint::{CheckpointKeeper, Marks, MotionCheckpoint, MotionCheckpointBody, Stage};
+use super::checkpoint::{CheckpointKeeper, Marks, MotionCheckpoint, MotionCheckpointBody, Part, Stage};
+use super::memory::Memory;
 use super::{History, Invariants, Method, Progress, TimeSpan, Timetable};
+use crate::SimulationError;
 
 /// Reads everything that is recorded out of a state.
 pub(super) trait Reading {
@@ -39,9 +42,21 @@ type Landing<'a, 'o> = &'a mut dyn FnMut(
     &mut [f64],
 ) -> (Result<Report, IntegratorsError<String>>, Result<(), String>);
 
-/// Steps of a fixed-step method between two instants after which it begins anew from the state alone. A run may be continued
-/// from there, and it takes the same steps if it is not.
+/// Steps after which a method of fixed step between two instants, or a motion with a memory, begins anew from the state alone. A run
+/// may be continued from there, and it takes the same steps if it is not.
 const PIECE: u32 = 1000;
+
+/// A run with a memory where it began anew.
+struct Piece {
+    state: State,
+    report: Report,
+    steps: u64,
+    next: usize,
+    landing: usize,
+    /// Recorded instants and invariants.
+    recorded: [usize; 2],
+    passed: Vec<(f64, String)>,
+}
 
 pub(super) struct Driver<'o> {
     history: History,
@@ -62,6 +77,10 @@ pub(super) struct Driver<'o> {
     stopped: bool,
     keeper: Option<Keeper<'o>>,
     resumed: Option<MotionCheckpoint>,
+    /// Islands before this one, for its checkpoints.
+    done: Vec<Part>,
+    /// What the motion remembers besides its state.
+    memory: Option<Rc<Memory>>,
 }
 
 /// Who keeps the checkpoints of a run, and the marks that they bear.
@@ -94,7 +113,19 @@ impl<'o> Driver<'o> {
             stopped: false,
             keeper,
             resumed,
+            done: Vec::new(),
+            memory: None,
         }
+    }
+
+    /// The motion remembers more than its state: it is to begin anew now and then.
+    pub(super) fn remember(&mut self, memory: Rc<Memory>) {
+        self.memory = Some(memory);
+    }
+
+    /// The driver of an island, after others that are done.
+    pub(super) fn after(self, done: Vec<Part>) -> Self {
+        Self { done, ..self }
     }
 
     pub(super) fn start(&self) -> f64 {
@@ -109,8 +140,9 @@ impl<'o> Driver<'o> {
         &mut self.history
     }
 
-    pub(super) fn finish(self) -> (History, Report, f64) {
-        (self.history, self.report, self.time)
+    /// What was integrated, and the islands before it.
+    pub(super) fn finish(self) -> (Part, Vec<Part>) {
+        (Part { history: self.history, report: self.report, time: self.time }, self.done)
     }
 
     fn step_done(&mut self, time: f64) -> ControlFlow<()> {
@@ -140,16 +172,17 @@ impl<'o> Driver<'o> {
     fn hand_over(&mut self, stage: Stage, report: Report, steps: u64) {
         let Some((keeper, marks)) = &mut self.keeper else { return };
         let (marks, history) = (marks.clone(), core::mem::take(&mut self.history));
-        let body = MotionCheckpointBody { stage, report, steps, next: self.next, landing: self.landing, history };
+        let (next, landing, done) = (self.next, self.landing, core::mem::take(&mut self.done));
+        let body = MotionCheckpointBody { stage, report, steps, next, landing, history, done };
         let checkpoint = MotionCheckpoint::new(marks, body);
         keeper.keep(&checkpoint);
-        self.history = checkpoint.body.history;
+        (self.history, self.done) = (checkpoint.body.history, checkpoint.body.done);
     }
 
     /// Records the state at the start, or takes up what a checkpoint holds.
     fn begin(&mut self, state: &mut State, reading: &mut dyn Reading) -> Option<Checkpoint> {
         if let Some(MotionCheckpoint { body, .. }) = self.resumed.take() {
-            let MotionCheckpointBody { stage, report, steps, next, landing, history } = body;
+            let MotionCheckpointBody { stage, report, steps, next, landing, history, .. } = body;
             (self.report, self.steps, self.next, self.landing, self.history) = (report, steps, next, landing, history);
             let checkpoint = match stage {
                 Stage::Fixed(resumed) => {
@@ -162,6 +195,9 @@ impl<'o> Driver<'o> {
                 }
             };
             self.time = state.time;
+            if let Some(memory) = &self.memory {
+                memory.passed.replace(self.history.singular_positions.clone());
+            }
             return checkpoint;
         }
         reading.record(state.time, &state.values, &mut self.history);
@@ -290,7 +326,7 @@ impl<'o> Driver<'o> {
             Method::Nystrom86 { .. } | Method::Nystrom1210 { .. } => {
                 Err("a Nyström pair needs forces that depend on positions alone".to_string())
             }
-            Method::ClosedForm => Err("a closed form is there for bodies about a fixed centre alone".to_string()),
+            Method::ClosedForm => Err(SimulationError::NoClosedForm.to_string()),
         }
     }
 
@@ -375,9 +411,39 @@ impl<'o> Driver<'o> {
             let invariants = reading.invariants(step.time(), step.values());
             self.history.invariants.push(invariants);
         }
+        let Some(memory) = self.memory.clone() else {
+            let going = self.step_done(step.time());
+            self.keep(|| Stage::Adaptive(step.checkpoint()));
+            return going;
+        };
+        self.left = self.left.saturating_sub(1);
         let going = self.step_done(step.time());
-        self.keep(|| Stage::Adaptive(step.checkpoint()));
-        going
+        if self.left == 0 && memory.apart.get() { ControlFlow::Break(()) } else { going }
+    }
+
+    /// Where a run with a memory begins anew.
+    fn piece(&self, state: &State) -> Option<Piece> {
+        let memory = self.memory.as_ref().filter(|_| self.keeper.is_some())?;
+        let Self { report, steps, next, landing, history, .. } = self;
+        Some(Piece {
+            state: state.clone(),
+            report: *report,
+            steps: *steps,
+            next: *next,
+            landing: *landing,
+            recorded: [history.times.len(), history.invariants.len()],
+            passed: memory.passed.borrow().clone(),
+        })
+    }
+
+    /// Hands over the checkpoint of a run that is stopped within a piece: that of its beginning.
+    fn hand_over_piece(&mut self, piece: Piece) {
+        let now = (self.history.clone(), self.next, self.landing);
+        self.history.truncate(piece.recorded);
+        self.history.singular_positions = piece.passed;
+        (self.next, self.landing) = (piece.next, piece.landing);
+        self.hand_over(Stage::Fixed(piece.state), piece.report, piece.steps);
+        (self.history, self.next, self.landing) = now;
     }
 
     /// An adaptive method, from landing to landing.
@@ -389,6 +455,7 @@ impl<'o> Driver<'o> {
     ) -> Result<(), String> {
         let mut from = self.begin(state, reading);
         let mut between = state.values.clone();
+        let mut piece = self.piece(state);
         while let Some(&landing) = self.landings.get(self.landing) {
             let steps_before = self.steps;
             let from = from.take();
@@ -403,6 +470,18 @@ impl<'o> Driver<'o> {
                 }
             }
             dense?;
+            if let (Ending::Stopped, Some(memory)) = (self.report.ending, &self.memory) {
+                if self.stopped {
+                    piece.take().into_iter().for_each(|piece| self.hand_over_piece(piece));
+                    break;
+                }
+                memory.renew.set(true);
+                self.history.singular_positions.clone_from(&memory.passed.borrow());
+                self.left = PIECE;
+                self.keep(|| Stage::Fixed(state.clone()));
+                piece = self.piece(state);
+                continue;
+            }
             if self.report.ending == Ending::Stopped {
                 break;
             }

@@ -116,6 +116,18 @@ pub struct Drifts {
 }
 
 impl History {
+    /// Leaves so many recorded instants and invariants.
+    pub(super) fn truncate(&mut self, [recorded, invariants]: [usize; 2]) {
+        self.times.truncate(recorded);
+        self.positions.truncate(recorded);
+        self.velocities.truncate(recorded);
+        for rows in [&mut self.coordinates, &mut self.works, &mut self.energies, &mut self.conditions] {
+            rows.truncate(recorded);
+        }
+        self.reactions.truncate(recorded);
+        self.invariants.truncate(invariants);
+    }
+
     /// The drifts of the recorded invariants.
     #[must_use]
     pub fn drifts(&self) -> Drifts {

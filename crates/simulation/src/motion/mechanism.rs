@@ -3,16 +3,18 @@
 use nalgebra::Vector3;
 use piola_integrators::{Field, State};
 use piola_kinematics::{Attitude, Holonomic, Placement, RigidBody};
-use piola_lagrangian::constraints::{self, Constraints as _};
+use piola_lagrangian::constraints;
 use piola_lagrangian::{LagrangianError, Reaction, Workspace};
 
 use super::drive::{Driver, Reading};
 use super::energies;
+pub(super) use super::energies::names as energy_names;
+use super::memory::{Memory, Remembering};
 use super::{History, Invariants, Method, PartReaction};
 use crate::SimulationError;
-use crate::constraints::{ConstrainedMechanism, MechanismConstraints};
+use crate::constraints::{ConstrainedMechanism, MechanismConstraints, RollingMechanism};
 use crate::forces::{MechanismLagrangian, working};
-use crate::joints::Mechanism;
+use crate::joints::{ClosedTop, Mechanism};
 
 /// Particles and rigid bodies on joints.
 pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver) -> Result<(), String> {
@@ -34,13 +36,24 @@ pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver)
         history.energy_names = energies::names(system);
     }
     let lagrangian = system.lagrangian();
-    let constrained = (!system.constraints.is_empty()).then(|| system.constrained());
+    // Steps evaluate what moves alone; what is recorded is that of all parts.
+    let reduction = system.simplify.then(|| system.reduction());
+    let lean = system.lagrangian_on(reduction.as_ref().map_or(&system.tree, |reduction| &reduction.tree));
+    let rolling = if system.rolls() {
+        Some(system.rolling(system.lagrangian()).map_err(|error| error.to_string())?)
+    } else {
+        None
+    };
+    let constrained = (!system.constraints.is_empty() && rolling.is_none()).then(|| system.constrained());
     let canonical = matches!(method, Method::GaussLegendre { .. });
     let (mut position, mut velocity) = (system.position.clone(), system.velocity.clone());
-    if let Some(constrained) = &constrained {
-        if canonical {
-            return Err(SimulationError::ConstraintsNeedProjection { method: method.to_string() }.to_string());
-        }
+    if canonical && !system.constraints.is_empty() {
+        return Err(SimulationError::ConstraintsNeedProjection { method: method.to_string() }.to_string());
+    }
+    if rolling.is_some() {
+        // The rates that are free; the others follow from them.
+        velocity = system.rolling_frame().free.iter().map(|i| velocity[*i]).collect();
+    } else if let Some(constrained) = &constrained {
         let start = constrained.assemble(&position, &velocity, driver.start()).map_err(|error| error.to_string())?;
         (position, velocity) = (start.coordinates, start.velocities);
     } else if canonical {
@@ -48,25 +61,39 @@ pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver)
         velocity = momenta.map_err(|error| error.to_string())?.as_slice().to_vec();
     }
     let mut start = [position, velocity].concat();
-    start.resize(2 * n + works, 0.0);
+    start.resize(start.len() + works, 0.0);
     let mut state = State::new(driver.start(), start).map_err(|error| error.to_string())?;
     let mut reading = MechanismReading {
         system,
         lagrangian: &lagrangian,
         constrained: constrained.as_ref(),
+        rolling: rolling.as_ref(),
         canonical,
         work: Workspace::default(),
         state: vec![0.0; 2 * n],
     };
+    if let Method::ClosedForm = method {
+        let top = ClosedTop::of(system).ok_or_else(|| SimulationError::NoClosedForm.to_string())?;
+        let from = driver.start();
+        driver.closed_form(&mut |t, values| top.write(t - from, values), &mut state, &mut reading);
+        return Ok(());
+    }
     let power =
-        Power { system, lagrangian: &lagrangian, working: &working, work: Workspace::default(), forces: vec![0.0; n] };
+        Power { system, lagrangian: &lean, working: &working, work: Workspace::default(), forces: vec![0.0; n] };
+    if rolling.is_some() {
+        let rolling = system.rolling(lean.clone()).map_err(|error| error.to_string())?;
+        let mut field = RollingWithWork { field: rolling.motion(n), coordinates: n, power, works };
+        return driver.field(method, &mut field, &mut state, &mut reading);
+    }
     match &constrained {
-        Some(constrained) => {
-            let mut field = WithWork { field: constrained.motion(n), power, works };
+        Some(_) => {
+            let constrained = lean.clone().with_constraints(MechanismConstraints(system));
+            let (constraints, memory) = (MechanismConstraints(system), Memory::shared());
+            driver.remember(memory.clone());
+            let motion = Remembering { motion: constrained.motion(n), constraints, memory: memory.clone(), before: 0 };
+            let mut field = WithWork { field: motion, power, works };
             let done = driver.field(method, &mut field, &mut state, &mut reading);
-            let name = |condition| MechanismConstraints(system).name(condition).unwrap_or_default().to_string();
-            let passed = field.field.singular_positions().iter();
-            driver.history().singular_positions = passed.map(|at| (at.t, name(at.condition))).collect();
+            driver.history().singular_positions = memory.passed.take();
             done.map_err(|why| {
                 let singular = why
                     .contains("singular")
@@ -75,12 +102,10 @@ pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver)
             })
         }
         None if canonical => {
-            let field = &mut WithWork { field: lagrangian.canonical_motion(n), power, works };
+            let field = &mut WithWork { field: lean.canonical_motion(n), power, works };
             driver.field(method, field, &mut state, &mut reading)
         }
-        None => {
-            driver.field(method, &mut WithWork { field: lagrangian.motion(n), power, works }, &mut state, &mut reading)
-        }
+        None => driver.field(method, &mut WithWork { field: lean.motion(n), power, works }, &mut state, &mut reading),
     }
 }
 
@@ -150,10 +175,41 @@ impl<F: Field<Error = LagrangianError>> Field for WithWork<'_, F> {
     }
 }
 
+/// A motion y = (q, w) in coordinates and free rates, with works after it.
+struct RollingWithWork<'m, F> {
+    field: F,
+    coordinates: usize,
+    power: Power<'m>,
+    works: usize,
+}
+
+impl<F: Field<Error = LagrangianError>> Field for RollingWithWork<'_, F> {
+    type Error = LagrangianError;
+    fn dimension(&self) -> usize {
+        self.field.dimension() + self.works
+    }
+    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), LagrangianError> {
+        let (motion, powers) = rate.split_at_mut(self.field.dimension());
+        self.field.rate(t, &y[..motion.len()], motion)?;
+        if powers.is_empty() {
+            return Ok(());
+        }
+        // No drive stands beside what rolls: accelerations are not needed.
+        let velocities = &motion[..self.coordinates];
+        self.power.write(&y[..self.coordinates], (velocities, velocities), t, powers)
+    }
+    fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
+        let dimension = self.field.dimension();
+        self.field.magnitudes(&y[..dimension], &mut magnitudes[..dimension]);
+        magnitudes[dimension..].fill(f64::MAX);
+    }
+}
+
 struct MechanismReading<'l> {
     system: &'l Mechanism,
     lagrangian: &'l MechanismLagrangian<'l>,
     constrained: Option<&'l ConstrainedMechanism<'l>>,
+    rolling: Option<&'l RollingMechanism<'l>>,
     /// Whether states hold momenta instead of velocities.
     canonical: bool,
     work: Workspace,
@@ -163,9 +219,18 @@ struct MechanismReading<'l> {
 
 impl MechanismReading<'_> {
     fn read(&mut self, time: f64, values: &[f64]) {
-        let motion = &values[..self.state.len()];
-        self.state.copy_from_slice(motion);
-        let (q, v) = motion.split_at(motion.len() / 2);
+        let motion = &values[..values.len() - self.system.work_count()];
+        let (q, v) = motion.split_at(self.state.len() / 2);
+        self.state[..q.len()].copy_from_slice(q);
+        if let Some(rolling) = self.rolling {
+            let velocities = &mut self.state[q.len()..];
+            match rolling.velocities(q, v, time) {
+                Ok(found) => velocities.copy_from_slice(found.as_slice()),
+                Err(_) => velocities.fill(f64::NAN),
+            }
+            return;
+        }
+        self.state[q.len()..].copy_from_slice(v);
         if self.canonical {
             let velocities = &mut self.state[q.len()..];
             if self.lagrangian.velocities_into(&mut self.work, q, v, time, velocities).is_err() {
@@ -185,6 +250,7 @@ impl MechanismReading<'_> {
         let mut acceleration = vec![0.0; q.len()];
         let mut conditions = vec![0.0; history.condition_names.len()];
         let solved = match self.constrained {
+            None if self.rolling.is_some() => self.hold_rolling(time, &mut acceleration, &mut conditions),
             Some(constrained) => {
                 let work = &mut constraints::Workspace::default();
                 constrained.solve_into(work, q, v, time, &mut acceleration, &mut conditions)
@@ -209,6 +275,21 @@ impl MechanismReading<'_> {
     }
 }
 
+impl MechanismReading<'_> {
+    /// Accelerations of what rolls, and the forces of the plane.
+    fn hold_rolling(&self, time: f64, acceleration: &mut [f64], forces: &mut [f64]) -> Result<(), LagrangianError> {
+        let Some(rolling) = self.rolling else { return Ok(()) };
+        let (q, v) = self.state.split_at(self.state.len() / 2);
+        let frame = self.system.rolling_frame();
+        let free: Vec<f64> = frame.free.iter().map(|i| v[*i]).collect();
+        acceleration.copy_from_slice(rolling.coordinate_acceleration(q, &free, time)?.as_slice());
+        for (held, force) in frame.held.iter().zip(&rolling.reactions(q, &free, time)?) {
+            forces[*held] = *force;
+        }
+        Ok(())
+    }
+}
+
 impl Reading for MechanismReading<'_> {
     fn record(&mut self, time: f64, values: &[f64], history: &mut History) {
         self.read(time, values);
@@ -217,8 +298,9 @@ impl Reading for MechanismReading<'_> {
         history.times.push(time);
         history.positions.push(places.0);
         history.coordinates.push(self.state.clone());
-        if self.state.len() < values.len() {
-            history.works.push(values[self.state.len()..].to_vec());
+        let works = &values[values.len() - self.system.work_count()..];
+        if !works.is_empty() {
+            history.works.push(works.to_vec());
         }
         if self.system.questions.energies {
             let (q, v) = self.state.split_at(self.state.len() / 2);
@@ -239,7 +321,7 @@ impl Reading for MechanismReading<'_> {
         Invariants {
             time,
             energy,
-            work: values[self.state.len()..].iter().sum(),
+            work: values[values.len() - self.system.work_count()..].iter().sum(),
             energy_scale: scale,
             post_newtonian_energy: None,
             momentum: None,

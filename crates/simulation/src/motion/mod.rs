@@ -8,11 +8,13 @@
 //! | [`PhaseSystem`](crate::phase::PhaseSystem) | q̇ = ∂H/∂p, ṗ = −∂H/∂q | energy less ∫ ∂H/∂t dt |
 
 mod any_field;
-mod checkpoint;
+pub(crate) mod checkpoint;
 mod drive;
 mod energies;
 mod history;
+mod islands;
 mod mechanism;
+mod memory;
 mod method;
 mod phase;
 mod system;
@@ -30,7 +32,7 @@ pub use system::{Central, Gravitation, MassPoint, NEWTONIAN_CONSTANT, Orbiter, P
 pub use timetable::{TimeSpan, Timetable};
 
 use crate::{Outcome, SimulationError};
-use checkpoint::Marks;
+use checkpoint::{Marks, Part};
 use drive::{Driver, Keeper, Observer};
 
 /// The progress of a run.
@@ -106,8 +108,7 @@ pub fn simulate(
 /// As [`simulate`], with checkpoints: the run begins at one if there is one, and gives others to their keeper. A run that its
 /// observer stops gives a last one.
 ///
-/// The record is the same, to the last bit, as that of [`simulate`]. A mechanism with constraints gives no checkpoints: its
-/// motion remembers more than its state.
+/// The record is the same, to the last bit, as that of [`simulate`].
 ///
 /// # Errors
 /// [`SimulationError::CheckpointOfOtherVersion`], [`SimulationError::CheckpointOfOtherRun`],
@@ -152,15 +153,8 @@ pub fn resume(
     if let Some(checkpoint) = &checkpoint {
         checkpoint.check(system, method, timetable)?;
     }
-    let keeper: Option<Keeper<'_>> =
-        if gives_checkpoints(system) { Some((keeper, Marks::of(system, method, timetable))) } else { None };
-    Ok(driven(system, method, timetable, (keeper, checkpoint), observer))
-}
-
-/// Whether the motion of a system gives [checkpoints](MotionCheckpoint): all but mechanisms with constraints.
-#[must_use]
-pub fn gives_checkpoints(system: &System) -> bool {
-    !matches!(system, System::Mechanism(system) if !system.constraints.is_empty())
+    let keeper: Keeper<'_> = (keeper, Marks::of(system, method, timetable));
+    Ok(driven(system, method, timetable, (Some(keeper), checkpoint), observer))
 }
 
 fn driven<'o>(
@@ -170,6 +164,11 @@ fn driven<'o>(
     (keeper, checkpoint): (Option<Keeper<'o>>, Option<MotionCheckpoint>),
     observer: Observer<'o>,
 ) -> MotionRun {
+    if let System::Mechanism(system) = system
+        && let Some(islands) = islands::of(system, method)
+    {
+        return islands::run(system, &islands, method, timetable, (keeper, checkpoint), observer);
+    }
     let names = system.names().into_iter().map(str::to_string).collect();
     let mut driver = Driver::new(names, timetable, observer, (keeper, checkpoint));
     let result = match system {
@@ -178,12 +177,17 @@ fn driven<'o>(
         System::Central(system) => systems::central(system, method, &mut driver),
         System::Phase(system) => phase::phase(system, method, &mut driver),
     };
-    let (history, report, time) = driver.finish();
-    let outcome = match result {
-        Err(why) => Outcome::Failed(why),
-        Ok(()) if report.ending == Ending::Stopped => Outcome::Interrupted,
-        Ok(()) => Outcome::Completed,
-    };
-    let Report { steps, rejected, evaluations, .. } = report;
-    MotionRun { outcome, time, steps, rejected, force_evaluations: evaluations, history }
+    MotionRun::of(driver.finish().0, result)
+}
+
+impl MotionRun {
+    fn of(Part { history, report, time }: Part, result: Result<(), String>) -> Self {
+        let outcome = match result {
+            Err(why) => Outcome::Failed(why),
+            Ok(()) if report.ending == Ending::Stopped => Outcome::Interrupted,
+            Ok(()) => Outcome::Completed,
+        };
+        let Report { steps, rejected, evaluations, .. } = report;
+        Self { outcome, time, steps, rejected, force_evaluations: evaluations, history }
+    }
 }

@@ -1,12 +1,12 @@
 //! The equations of a Hamiltonian and the reading of its states.
 
-use piola_hamiltonian::{HamiltonianError, HamiltonianField, PhaseFunction as _, differential, time_derivative};
-use piola_integrators::{Composition, Field, State};
+use piola_hamiltonian::PhaseFunction as _;
+use piola_integrators::{Composition, State};
 
 use super::drive::{Driver, Reading};
 use super::{History, Invariants, Method};
 use crate::SimulationError;
-use crate::phase::{PhaseExpression, PhaseSystem, Split};
+use crate::phase::{Newtonian, PhaseField, PhaseSystem, Split};
 
 /// A system given by its Hamiltonian.
 pub(super) fn phase(system: &PhaseSystem, method: Method, driver: &mut Driver) -> Result<(), String> {
@@ -24,60 +24,53 @@ pub(super) fn phase(system: &PhaseSystem, method: Method, driver: &mut Driver) -
     if !value.is_finite() {
         return Err(SimulationError::NotFinite { quantity: "hamiltonian at the start", index: 0, value }.to_string());
     }
-    let mut reading = PhaseReading { system };
+    let mut reading = PhaseReading { system, field: PhaseField::of(system), newtonian: None, state: Vec::new() };
     match method {
-        Method::Composition { .. } if !hamiltonian.0.is_separable() => {
-            Err(SimulationError::NotSeparable { method: method.to_string() }.to_string())
-        }
         Method::Composition { order, step } => {
+            let Some(mut split) = Split::of(system) else {
+                return Err(SimulationError::NotSeparable { method: method.to_string() }.to_string());
+            };
             let mut method = Composition::new(order, step).map_err(|error| error.to_string())?;
-            driver.separable(&mut method, &mut Split { system }, &mut state, &mut reading)
+            driver.separable(&mut method, &mut split, &mut state, &mut reading)
         }
-        _ => {
-            let n = system.freedom();
-            let mut field = PhaseField { field: HamiltonianField::new(hamiltonian, n), hamiltonian, driven };
-            driver.field(method, &mut field, &mut state, &mut reading)
+        Method::Nystrom86 { .. } | Method::Nystrom1210 { .. } => {
+            let (Some(mut newtonian), true) = (Newtonian::of(system), !driven) else {
+                return Err(SimulationError::NoConstantInertia { method: method.to_string() }.to_string());
+            };
+            state.values[system.freedom()..].copy_from_slice(&newtonian.velocities(&system.momentum));
+            reading.state.clone_from(&state.values);
+            reading.newtonian = Newtonian::of(system);
+            driver.second_order(method, &mut newtonian, &mut state, &mut reading)
         }
-    }
-}
-
-/// Hamilton's equations, with ∫ ∂H/∂t dt after them where H depends on time.
-struct PhaseField<'s> {
-    field: HamiltonianField<'s, PhaseExpression>,
-    hamiltonian: &'s PhaseExpression,
-    driven: bool,
-}
-
-impl Field for PhaseField<'_> {
-    type Error = HamiltonianError;
-    fn dimension(&self) -> usize {
-        self.field.dimension() + usize::from(self.driven)
-    }
-    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), HamiltonianError> {
-        let dimension = self.field.dimension();
-        let (motion, power) = rate.split_at_mut(dimension);
-        self.field.rate(t, &y[..dimension], motion)?;
-        if let [power] = power {
-            let (q, p) = y[..dimension].split_at(dimension / 2);
-            *power = time_derivative(self.hamiltonian, q, p, t)?;
-        }
-        Ok(())
-    }
-    /// The work does not act back on the motion, whose steps serve for it.
-    fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
-        let dimension = self.field.dimension();
-        self.field.magnitudes(&y[..dimension], &mut magnitudes[..dimension]);
-        magnitudes[dimension..].fill(f64::MAX);
+        _ => driver.field(method, &mut PhaseField::of(system), &mut state, &mut reading),
     }
 }
 
 struct PhaseReading<'s> {
     system: &'s PhaseSystem,
+    field: PhaseField,
+    /// Where states hold velocities instead of momenta.
+    newtonian: Option<Newtonian>,
+    /// (q, p) of such a state.
+    state: Vec<f64>,
+}
+
+impl PhaseReading<'_> {
+    /// (q, p) and the works.
+    fn read<'v>(&'v mut self, values: &'v [f64]) -> (&'v mut PhaseField, &'v [f64], &'v [f64]) {
+        let n = self.system.freedom();
+        let (motion, works) = values.split_at(2 * n);
+        let Some(newtonian) = &self.newtonian else { return (&mut self.field, motion, works) };
+        let (q, p) = self.state.split_at_mut(n);
+        q.copy_from_slice(&motion[..n]);
+        newtonian.momenta_into(&motion[n..], p);
+        (&mut self.field, &self.state, works)
+    }
 }
 
 impl Reading for PhaseReading<'_> {
     fn record(&mut self, time: f64, values: &[f64], history: &mut History) {
-        let (motion, works) = values.split_at(2 * self.system.freedom());
+        let (_, motion, works) = self.read(values);
         history.times.push(time);
         history.positions.push(Vec::new());
         history.coordinates.push(motion.to_vec());
@@ -87,19 +80,15 @@ impl Reading for PhaseReading<'_> {
     }
 
     fn invariants(&mut self, time: f64, values: &[f64]) -> Invariants {
-        let n = self.system.freedom();
-        let (motion, works) = values.split_at(2 * n);
-        let (q, p) = motion.split_at(n);
-        let hamiltonian = &self.system.hamiltonian;
+        let (field, motion, works) = self.read(values);
+        let (q, p) = motion.split_at(motion.len() / 2);
         // ½ p·∂H/∂p is the kinetic energy where H has one.
-        let scale = differential(hamiltonian, q, p, time).map_or(f64::NAN, |slopes| {
-            0.5 * p.iter().zip(slopes.iter().skip(n)).map(|(p, v)| p * v).sum::<f64>().abs()
-        });
+        let (energy, energy_scale) = field.energies(q, p, time);
         Invariants {
             time,
-            energy: hamiltonian.value(q, p, time),
+            energy,
             work: works.iter().sum(),
-            energy_scale: scale,
+            energy_scale,
             post_newtonian_energy: None,
             momentum: None,
             angular_momentum: None,

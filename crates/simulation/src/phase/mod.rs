@@ -5,12 +5,13 @@
 //! ```
 
 mod canonical;
+mod equations;
 mod questions;
 
 use core::ops::ControlFlow;
 
-use piola_hamiltonian::{HamiltonianError, HamiltonianField, PhaseFunction, hessian};
-use piola_integrators::{DormandPrince853, Separable, State, Tolerance};
+use piola_hamiltonian::{PhaseFunction, hessian};
+use piola_integrators::{DormandPrince853, State, Tolerance};
 use piola_numerics::Real;
 
 use crate::SimulationError;
@@ -20,6 +21,7 @@ use crate::joints::finite;
 use crate::motion::TimeSpan;
 
 pub use canonical::{BracketQuestion, NewVariables};
+pub(crate) use equations::{Newtonian, PhaseField, Split};
 pub use questions::{PhaseAnswers, PhaseQuestions};
 
 /// A function of coordinates, momenta and time as an expression: [`Variable::Conjugate`] are the momenta.
@@ -57,7 +59,7 @@ impl PhaseFunction for PhaseExpression {
 /// ];
 /// let names = (vec!["q".into()], vec!["p".into()]);
 /// let oscillator = PhaseSystem::new(Expression::new(nodes)?, names, vec![3.0], vec![4.0])?;
-/// assert!(oscillator.hamiltonian.0.is_separable());
+/// assert!(oscillator.hamiltonian.0.is_separable() && oscillator.has_constant_inertia());
 /// assert_eq!(oscillator.turn(0.0), Some(std::f64::consts::TAU));
 /// # Ok::<(), piola_simulation::SimulationError>(())
 /// ```
@@ -111,6 +113,16 @@ impl PhaseSystem {
     #[must_use]
     pub fn freedom(&self) -> usize {
         self.position.len()
+    }
+
+    /// Whether H = ½ p·W p + w·p + V(q) with a constant W that has an inverse: then q̈ = −W ∂V/∂q depends on coordinates alone, and
+    /// the methods [`Nystrom86`](crate::motion::Method::Nystrom86) and [`Nystrom1210`](crate::motion::Method::Nystrom1210) apply.
+    ///
+    /// # Example
+    /// The oscillator of [`PhaseSystem`] is such a system.
+    #[must_use]
+    pub fn has_constant_inertia(&self) -> bool {
+        Newtonian::of(self).is_some()
     }
 
     /// About the shortest period of small motions at the start, s: 2π/√(|∂²H/∂p²| |∂²H/∂q²|); none where one of them is zero.
@@ -168,7 +180,7 @@ impl PhaseSystem {
             return fastest;
         };
         let mut steps = 0;
-        let mut field = HamiltonianField::new(&self.hamiltonian, n);
+        let mut field = PhaseField::of_motion(self);
         // A trial that fails was long enough until then.
         let _ = DormandPrince853::new(tolerance).integrate(&mut field, &mut state, span.end, |step| {
             steps += 1;
@@ -179,50 +191,5 @@ impl PhaseSystem {
             if most <= steps { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         fastest
-    }
-}
-
-/// H = T(p) + V(q) as a pair for explicit symplectic methods.
-pub(crate) struct Split<'s> {
-    pub(crate) system: &'s PhaseSystem,
-}
-
-impl Split<'_> {
-    fn partial(&self, by: Variable, q: &[f64], p: &[f64], t: f64) -> Result<f64, HamiltonianError> {
-        // Of a separable H each derivative depends on one half of the state. The other half keeps its values at the start, where
-        // H is defined: at zero it need not be, as 1/q is not.
-        let held = |half: &[f64], start: &[f64], i: usize| half.get(i).or(start.get(i)).copied().unwrap_or_default();
-        let read = |variable| match variable {
-            Variable::Coordinate(i) => held(q, &self.system.position, i),
-            Variable::Conjugate(i) => held(p, &self.system.momentum, i),
-            Variable::Time => t,
-        };
-        let slope = self.system.hamiltonian.0.partial(by, &read).tangent;
-        if slope.is_finite() {
-            return Ok(slope);
-        }
-        let (Variable::Coordinate(index) | Variable::Conjugate(index)) = by else {
-            return Err(HamiltonianError::NotFinite { quantity: "dH", index: 0, value: slope });
-        };
-        Err(HamiltonianError::NotFinite { quantity: "dH", index, value: slope })
-    }
-}
-
-impl Separable for Split<'_> {
-    type Error = HamiltonianError;
-    fn freedom(&self) -> usize {
-        self.system.freedom()
-    }
-    fn velocity(&mut self, t: f64, momentum: &[f64], velocity: &mut [f64]) -> Result<(), HamiltonianError> {
-        for (i, velocity) in velocity.iter_mut().enumerate() {
-            *velocity = self.partial(Variable::Conjugate(i), &[], momentum, t)?;
-        }
-        Ok(())
-    }
-    fn force(&mut self, t: f64, position: &[f64], force: &mut [f64]) -> Result<(), HamiltonianError> {
-        for (i, force) in force.iter_mut().enumerate() {
-            *force = -self.partial(Variable::Coordinate(i), position, &[], t)?;
-        }
-        Ok(())
     }
 }

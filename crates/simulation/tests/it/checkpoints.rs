@@ -3,6 +3,7 @@
 use core::ops::ControlFlow;
 
 use piola_integrators::Order;
+use piola_simulation::constraints::{Constraint, ConstraintKind};
 use piola_simulation::expression::{Expression, ExpressionNode as Node, Function, Operation, Variable};
 use piola_simulation::joints::{Coordinate, Joint, JointMotion, Mechanism, Part, PartKind};
 use piola_simulation::motion::{
@@ -150,6 +151,75 @@ fn continued_pendulums_equal_unbroken_ones_bit_by_bit() {
         {
             assert!(5 <= compare(&system, method, &timetable, 1), "{method}");
         }
+    }
+}
+
+#[test]
+fn continued_islands_equal_unbroken_ones_bit_by_bit() {
+    let joint = |name: &str, position| Joint {
+        parent: None,
+        offset: [0.0; 3],
+        motion: JointMotion::Revolute([0.0, 1.0, 0.0]),
+        coordinates: vec![Coordinate { name: name.into(), angular: true, position, velocity: 0.5 }],
+    };
+    let part = |joint, name: &str, length: f64| Part {
+        joint,
+        name: name.into(),
+        at: [0.0, 0.0, -length],
+        kind: PartKind::Particle(1.0),
+    };
+    let parts = vec![part(0, "slow", 1.0), part(1, "fast", 0.05)];
+    let system = Mechanism::new(vec![joint("slow", 1.0), joint("fast", -0.4)], parts, [0.0, 0.0, -9.81]);
+    let system = System::Mechanism(Box::new(system.unwrap_or_else(|error| panic!("{error}"))));
+    let timetable = Timetable::new(TimeSpan { start: 0.0, end: 5.0 }, 6, &[2.5]);
+    for method in [Method::DormandPrince { tolerance: 1e-11 }, Method::Verner { tolerance: 1e-11 }] {
+        assert!(20 <= compare(&system, method, &timetable, 5), "{method}");
+    }
+}
+
+/// A slider on the line z = 0, tied by a rod of 1 m to a crank of 1 m: x = 2 cos φ. At φ = π/2 the rod lies on the crank.
+fn slider_crank() -> System {
+    let joint = |motion, name: &str, angular, position, velocity| Joint {
+        parent: None,
+        offset: [0.0; 3],
+        motion,
+        coordinates: vec![Coordinate { name: name.into(), angular, position, velocity }],
+    };
+    let (angle, speed) = (0.5_f64, 1.0);
+    let joints = vec![
+        joint(JointMotion::Revolute([0.0, -1.0, 0.0]), "crank", true, angle, speed),
+        joint(JointMotion::Prismatic([1.0, 0.0, 0.0]), "slider", false, 2.0 * angle.cos(), -2.0 * speed * angle.sin()),
+    ];
+    let part = |joint, name: &str, at| Part { joint, name: name.into(), at, kind: PartKind::Particle(1.0) };
+    let parts = vec![part(0, "pin", [1.0, 0.0, 0.0]), part(1, "block", [0.0; 3])];
+    let mut system = Mechanism::new(joints, parts, [0.0; 3]).unwrap_or_else(|error| panic!("{error}"));
+    let end = |joint, at| system.tree.anchor(Some(joint), at).unwrap_or_else(|error| panic!("{error}"));
+    let ends = [end(0, [1.0, 0.0, 0.0]), end(1, [0.0; 3])];
+    let rod = Constraint { name: "rod".into(), kind: ConstraintKind::Distance { ends, length: 1.0 } };
+    system.reactions = true;
+    System::Mechanism(Box::new(system.with_constraints(vec![rod]).unwrap_or_else(|error| panic!("{error}"))))
+}
+
+#[test]
+fn continued_motions_under_constraints_equal_unbroken_ones_bit_by_bit() {
+    let timetable = Timetable::new(TimeSpan { start: 0.0, end: 300.0 }, 31, &[100.25]);
+    let method = Method::DormandPrince { tolerance: 1e-10 };
+    let system = slider_crank();
+    let checkpoints = compare(&system, method, &timetable, 1);
+    assert!(2 <= checkpoints, "{checkpoints}");
+    let unbroken = simulate(&system, method, &timetable, &mut |_| ControlFlow::Continue(()));
+    // Two in each turn; they come from before and after the pieces.
+    assert!(40 < unbroken.history.singular_positions.len(), "{}", unbroken.history.singular_positions.len());
+    // Stopped within a piece, it goes on from the beginning of the piece.
+    for stop in [3, unbroken.steps / 2, unbroken.steps - 1] {
+        let mut keeper = Kept { every: u32::MAX, ..Kept::default() };
+        let stopped = resume(&system, method, &timetable, None, &mut keeper, &mut |progress| {
+            if progress.steps == stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        assert!(matches!(stopped, Ok(run) if (&run.outcome, run.steps) == (&Outcome::Interrupted, stop)));
+        let [text] = &keeper.texts[..] else { panic!("{} checkpoints", keeper.texts.len()) };
+        let (continued, _) = run(&system, (method, &timetable), Some(read(text)), u32::MAX);
+        assert_same(&continued, &unbroken, &format!("stopped after {stop} steps"));
     }
 }
 

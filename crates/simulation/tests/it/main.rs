@@ -9,6 +9,7 @@ mod mechanism;
 mod media;
 mod orbits;
 mod phase;
+mod skipped;
 mod timetable;
 
 use piola_testkit::CountingAllocator;

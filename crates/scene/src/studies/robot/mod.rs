@@ -1,10 +1,12 @@
 //! The motion of a tree of rigid bodies from a URDF or MJCF file.
 
 mod build;
+mod checkpoint;
 mod figure;
 mod gltf;
 mod results;
 mod run;
+mod sample;
 
 use std::path::PathBuf;
 
@@ -14,7 +16,9 @@ use super::StudyPlan;
 use crate::model::TimeSpan;
 use piola_document::words;
 
-pub use run::{RobotMotion, RobotSample};
+pub(super) use checkpoint::RobotCheckpoint;
+pub use run::RobotMotion;
+pub use sample::RobotSample;
 
 /// A tree with all that starts and drives it.
 ///

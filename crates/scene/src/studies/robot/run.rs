@@ -1,35 +1,18 @@
 //! Runs a robot and keeps its history.
 
+use core::cell::Cell;
 use core::ops::ControlFlow;
+use std::rc::Rc;
 
 use piola_integrators::{DormandPrince853, Ending, Field, IntegratorsError, State, Tolerance};
 use piola_multibody::{MultibodyError, TreeWorkspace};
+use piola_simulation::motion::CheckpointKeeper as _;
 
 use super::RobotStudy;
-use crate::run::Outcome;
+use super::checkpoint::{PIECE, Renewable, RobotCheckpoint};
+use super::sample::RobotSample;
+use crate::run::{Checkpoints, Outcome};
 use crate::studies::observer::Observer;
-
-/// A recorded instant.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RobotSample {
-    /// Time, s.
-    pub t: f64,
-    /// Coordinates.
-    pub q: Vec<f64>,
-    /// Rates.
-    pub v: Vec<f64>,
-    /// Kinetic energy, potential energy in gravity, energy of springs, J.
-    pub energies: [f64; 3],
-    /// Work of torques, forces and damping since the start, J.
-    pub work: f64,
-}
-
-impl RobotSample {
-    /// What the balance of energy compares: it is constant.
-    fn balance(&self) -> f64 {
-        self.energies.iter().sum::<f64>() - self.work
-    }
-}
 
 /// A run with all that it recorded, however far it came.
 #[derive(Debug, Clone, Default)]
@@ -54,9 +37,11 @@ pub struct RobotMotion {
 struct WithWork<'a, F> {
     motion: F,
     robot: &'a RobotStudy,
+    /// Whether the motion may begin anew.
+    apart: Rc<Cell<bool>>,
 }
 
-impl<F: Field<Error = MultibodyError>> Field for WithWork<'_, F> {
+impl<F: Field<Error = MultibodyError> + Renewable> Field for WithWork<'_, F> {
     type Error = MultibodyError;
     fn dimension(&self) -> usize {
         self.motion.dimension() + 1
@@ -64,6 +49,7 @@ impl<F: Field<Error = MultibodyError>> Field for WithWork<'_, F> {
     fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), MultibodyError> {
         let n = self.motion.dimension();
         self.motion.rate(t, &y[..n], &mut rate[..n])?;
+        self.apart.set(self.motion.is_apart());
         let (q, v) = y[..n].split_at(self.robot.closed.tree().coordinates());
         rate[n] = self.robot.drives.iter().zip(v).map(|(drive, &v)| drive.efforts(q, v)[0] * v).sum();
         Ok(())
@@ -88,22 +74,20 @@ impl RobotStudy {
         }
     }
 
-    pub(in crate::studies) fn run(&self, observer: &mut Observer<'_>) -> (RobotMotion, Outcome) {
+    pub(in crate::studies) fn run(
+        &self,
+        from: Option<RobotCheckpoint>,
+        keeper: Option<&mut Checkpoints>,
+        observer: &mut Observer<'_>,
+    ) -> (RobotMotion, Outcome) {
         let mut found = RobotMotion { names: self.names[0].clone(), ..RobotMotion::default() };
         let forces = |_t: f64, q: &[f64], v: &[f64], tau: &mut [f64]| self.drive(q, v, tau);
         let outcome = if self.closed.conditions() == 0 {
-            self.follow(&mut WithWork { motion: self.closed.tree().motion(forces), robot: self }, &mut found, observer)
+            self.follow(self.closed.tree().motion(forces), &mut found, (from, keeper), observer)
         } else {
-            let mut motion = self.closed.motion(forces);
-            if self.stops {
-                motion = motion.stopping_at_singular_positions();
-            }
-            let mut motion = WithWork { motion, robot: self };
-            let outcome = self.follow(&mut motion, &mut found, observer);
-            let passed = motion.motion.singular_positions().iter();
-            let named = |condition| self.closed.closure_of(condition).to_string();
-            found.singular_positions = passed.map(|position| (position.t, named(position.condition))).collect();
-            outcome
+            let motion = self.closed.motion(forces);
+            let motion = if self.stops { motion.stopping_at_singular_positions() } else { motion };
+            self.follow(motion, &mut found, (from, keeper), observer)
         };
         found.judge(self);
         let outcome = match outcome {
@@ -114,49 +98,84 @@ impl RobotStudy {
         (found, outcome)
     }
 
-    fn follow<F: Field<Error = MultibodyError>>(
+    fn follow<F: Field<Error = MultibodyError> + Renewable>(
         &self,
-        motion: &mut F,
+        motion: F,
         found: &mut RobotMotion,
+        (from, mut keeper): (Option<RobotCheckpoint>, Option<&mut Checkpoints>),
         observer: &mut Observer<'_>,
     ) -> Result<Ending, String> {
+        let mut motion = WithWork { motion, robot: self, apart: Rc::new(Cell::new(true)) };
         let (start, end) = (self.time.start, self.time.end);
         found.reached = start;
-        let values = [&self.start.0[..], &self.start.1, &[0.0]].concat();
-        let mut y = values.clone();
+        let mut y = [&self.start.0[..], &self.start.1, &[0.0]].concat();
         let in_words = |error: IntegratorsError| error.to_string();
-        let mut state = State::new(start, values).map_err(in_words)?;
+        let mut state = State::new(start, y.clone()).map_err(in_words)?;
         let tolerance = Tolerance::new(self.tolerance, self.tolerance).map_err(in_words)?;
         let mut work = self.closed.tree().workspace();
-        self.record(start, &mut y, &mut work, found).map_err(|error| error.to_string())?;
-        let last = f64::from(self.samples - 1);
-        let mut refused = None;
-        let result = DormandPrince853::new(tolerance).integrate(motion, &mut state, end, |step| {
-            let forward = (step.time() - start).abs();
-            while found.samples.len() < self.samples as usize {
-                let share = found.samples.len() as f64 / last;
-                let t = if share < 1.0 { start + share * (end - start) } else { end };
-                if forward < (t - start).abs() {
-                    break;
-                }
-                let sampled = step.at(t, &mut y).map_err(|error| error.to_string());
-                let recorded =
-                    sampled.and_then(|()| self.record(t, &mut y, &mut work, found).map_err(|error| error.to_string()));
-                if let Err(why) = recorded {
-                    refused = Some(why);
-                    return ControlFlow::Break(());
-                }
+        match from {
+            Some(RobotCheckpoint { state: kept, samples, cost, singular_positions, .. }) => {
+                (state, found.samples, found.cost) = (kept, samples, cost);
+                found.singular_positions = singular_positions;
             }
-            found.reached = step.time();
-            found.cost[0] += 1;
-            observer(forward / (end - start).abs())
-        });
-        if let Some(why) = refused {
-            return Err(why);
+            None => self.record(start, &mut y, &mut work, found).map_err(|error| error.to_string())?,
         }
-        let report = result.map_err(|error| error.to_string())?;
-        found.cost = [report.steps, report.rejected, report.evaluations];
-        Ok(report.ending)
+        let last = f64::from(self.samples - 1);
+        loop {
+            let piece = keeper.is_some().then(|| self.checkpoint(&state, found));
+            let (apart, before) = (motion.apart.clone(), found.cost);
+            let (mut refused, mut stopped, mut left) = (None, false, PIECE);
+            let result = DormandPrince853::new(tolerance).integrate(&mut motion, &mut state, end, |step| {
+                let forward = (step.time() - start).abs();
+                while found.samples.len() < self.samples as usize {
+                    let share = found.samples.len() as f64 / last;
+                    let t = if share < 1.0 { start + share * (end - start) } else { end };
+                    if forward < (t - start).abs() {
+                        break;
+                    }
+                    let sampled = step.at(t, &mut y).map_err(|error| error.to_string());
+                    let recorded = sampled
+                        .and_then(|()| self.record(t, &mut y, &mut work, found).map_err(|error| error.to_string()));
+                    if let Err(why) = recorded {
+                        refused = Some(why);
+                        return ControlFlow::Break(());
+                    }
+                }
+                found.reached = step.time();
+                found.cost[0] += 1;
+                left = u32::saturating_sub(left, 1);
+                stopped = observer(forward / (end - start).abs()).is_break();
+                if stopped || (left == 0 && apart.get()) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            let named = |(t, condition)| (t, self.closed.closure_of(condition).to_string());
+            found.singular_positions.extend(motion.motion.renew().into_iter().map(named));
+            if let Some(why) = refused {
+                return Err(why);
+            }
+            let report = result.map_err(|error| error.to_string())?;
+            found.cost = [before[0] + report.steps, before[1] + report.rejected, before[2] + report.evaluations];
+            if report.ending != Ending::Stopped || stopped {
+                if let (true, Some(keeper), Some(piece)) = (stopped, &mut keeper, &piece) {
+                    keeper.write(piece);
+                }
+                return Ok(report.ending);
+            }
+            if let Some(keeper) = &mut keeper
+                && keeper.is_due()
+            {
+                keeper.write(&self.checkpoint(&state, found));
+            }
+        }
+    }
+
+    fn checkpoint(&self, state: &State, found: &RobotMotion) -> RobotCheckpoint {
+        RobotCheckpoint {
+            marks: self.marks(),
+            state: state.clone(),
+            samples: found.samples.clone(),
+            cost: found.cost,
+            singular_positions: found.singular_positions.clone(),
+        }
     }
 
     fn record(

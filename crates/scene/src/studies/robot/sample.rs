@@ -1,0 +1,26 @@
+//! What is recorded of a robot at an instant.
+
+use serde::{Deserialize, Serialize};
+
+/// A recorded instant.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobotSample {
+    /// Time, s.
+    pub t: f64,
+    /// Coordinates.
+    pub q: Vec<f64>,
+    /// Rates.
+    pub v: Vec<f64>,
+    /// Kinetic energy, potential energy in gravity, energy of springs, J.
+    pub energies: [f64; 3],
+    /// Work of torques, forces and damping since the start, J.
+    pub work: f64,
+}
+
+impl RobotSample {
+    /// What the balance of energy compares: it is constant.
+    pub(super) fn balance(&self) -> f64 {
+        self.energies.iter().sum::<f64>() - self.work
+    }
+}

@@ -1,0 +1,263 @@
+//! What steps do not evaluate: parts that stand still, fixed joints, other islands, a top with a closed form. Each beside the run that
+//! evaluates it.
+
+use core::ops::ControlFlow;
+
+use piola_kinematics::{Inertia, RigidBody};
+use piola_lagrangian::Lagrangian;
+use piola_simulation::Outcome;
+use piola_simulation::forces::{Force, ForceKind};
+use piola_simulation::joints::{Coordinate, Joint, JointMotion, Mechanism, Part, PartKind};
+use piola_simulation::motion::{History, Method, MotionRun, System, TimeSpan, Timetable, simulate};
+use piola_testkit::{Tol, assert_close};
+
+const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
+
+fn turning(parent: Option<usize>, offset: [f64; 3], name: &str, position: f64) -> Joint {
+    let coordinate = Coordinate { name: name.into(), angular: true, position, velocity: 0.0 };
+    Joint { parent, offset, motion: JointMotion::Revolute([0.0, 1.0, 0.0]), coordinates: vec![coordinate] }
+}
+
+fn fixed(parent: Option<usize>, offset: [f64; 3]) -> Joint {
+    Joint { parent, offset, motion: JointMotion::Fixed, coordinates: Vec::new() }
+}
+
+fn particle(joint: usize, name: &str, at: [f64; 3]) -> Part {
+    Part { joint, name: name.into(), at, kind: PartKind::Particle(1.5) }
+}
+
+fn body(joint: usize, name: &str, at: [f64; 3], moments: [f64; 3]) -> Part {
+    let body = Inertia::principal(moments).and_then(|inertia| RigidBody::new(2.0, inertia));
+    Part { joint, name: name.into(), at, kind: PartKind::Body(body.unwrap_or_else(|error| panic!("{error}"))) }
+}
+
+fn mechanism(joints: Vec<Joint>, parts: Vec<Part>) -> Mechanism {
+    Mechanism::new(joints, parts, GRAVITY).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn run(system: &Mechanism, method: Method, end: f64) -> MotionRun {
+    let timetable = Timetable::new(TimeSpan { start: 0.5, end: 0.5 + end }, 21, &[]);
+    let system = System::Mechanism(Box::new(system.clone()));
+    let run = simulate(&system, method, &timetable, &mut |_| ControlFlow::Continue(()));
+    assert_eq!(run.outcome, Outcome::Completed);
+    run
+}
+
+const FINE: Method = Method::Verner { tolerance: 1e-14 };
+
+fn assert_same_motion(found: &History, expected: &History, tolerance: Tol) {
+    assert_eq!((&found.names, &found.times), (&expected.names, &expected.times));
+    for (found, expected) in found.coordinates.iter().zip(&expected.coordinates) {
+        assert_close("state", found, expected, tolerance);
+    }
+    for (found, expected) in found.positions.iter().zip(&expected.positions) {
+        assert_close("places", found.as_flattened(), expected.as_flattened(), tolerance);
+    }
+}
+
+/// A pendulum of two turning joints with fixed joints on them, and parts on the ground.
+fn with_fixed_joints() -> Mechanism {
+    let joints = vec![
+        fixed(None, [0.0, 0.0, 2.0]),
+        turning(Some(0), [0.5, 0.0, 0.0], "upper", 0.7),
+        fixed(Some(1), [0.1, 0.2, -1.0]),
+        turning(Some(2), [0.0, 0.0, -0.5], "lower", -0.4),
+        fixed(Some(3), [0.0, 0.1, -0.5]),
+        fixed(Some(4), [0.2, 0.0, 0.0]),
+    ];
+    let parts = vec![
+        body(0, "post", [0.0; 3], [1.0, 1.0, 1.0]),
+        body(2, "arm", [0.0, 0.0, 0.4], [0.3, 0.4, 0.2]),
+        particle(1, "pin", [0.0, 0.1, 0.2]),
+        body(5, "hand", [0.1, 0.0, 0.0], [0.1, 0.2, 0.15]),
+        particle(3, "bob", [0.0, 0.0, -0.2]),
+        particle(0, "foot", [0.0, 0.0, -2.0]),
+    ];
+    mechanism(joints, parts)
+}
+
+#[test]
+fn accelerations_of_the_reduced_tree_equal_those_of_all_parts() {
+    let whole = with_fixed_joints();
+    let reduced = whole.reduction();
+    let still: Vec<&str> = reduced.still.iter().map(|part| whole.parts[*part].name.as_str()).collect();
+    assert_eq!((still, reduced.merged_joints, reduced.merged_parts), (vec!["post", "foot"], 3, 2));
+    let lean = Lagrangian::of(&reduced.tree).with_uniform_gravity(GRAVITY);
+    for (q, v) in [([0.7, -0.4], [0.0, 0.0]), ([1.9, 2.3], [-3.0, 0.7]), ([-0.2, 3.0], [0.4, 5.0])] {
+        let found = lean.acceleration(&q, &v, 0.0).unwrap_or_else(|error| panic!("{error}"));
+        let expected = whole.lagrangian().acceleration(&q, &v, 0.0).unwrap_or_else(|error| panic!("{error}"));
+        assert_close("accelerations", found.as_slice(), expected.as_slice(), Tol::ulps(64.0));
+    }
+}
+
+#[test]
+fn a_run_on_the_reduced_tree_keeps_the_energy_of_all_parts() {
+    let run = run(&with_fixed_joints(), FINE, 5.0);
+    let drift = run.history.drifts().energy.map_or(f64::NAN, |drift| drift.max_relative);
+    assert_close("drift", &[drift], &[0.0], Tol::stated(1e-12, "the tolerance 1e-14 times some hundred steps"));
+    let places: Vec<[f64; 3]> = run.history.positions.iter().map(|places| places[0]).collect();
+    assert_eq!(places, vec![[0.0, 0.0, 2.0]; 21]);
+}
+
+/// A slow double pendulum and a fast one; a spring ties the fast one to the ground, and drag acts on all.
+fn slow_and_fast(spring: bool) -> Mechanism {
+    let joints = vec![
+        turning(None, [0.0; 3], "a", 1.0),
+        fixed(None, [3.0, 0.0, 0.0]),
+        turning(Some(1), [0.0; 3], "c", 0.8),
+        turning(Some(0), [0.0, 0.0, -1.0], "b", 0.5),
+        turning(Some(2), [0.0, 0.0, -0.02], "d", 0.4),
+    ];
+    let parts = vec![
+        particle(0, "p", [0.0, 0.0, -1.0]),
+        particle(2, "r", [0.0, 0.0, -0.02]),
+        particle(3, "q", [0.0, 0.0, -1.0]),
+        particle(4, "s", [0.0, 0.0, -0.02]),
+        particle(1, "hook", [0.0; 3]),
+    ];
+    let system = mechanism(joints, parts);
+    let anchor = |joint: Option<usize>, at| system.tree.anchor(joint, at).unwrap_or_else(|error| panic!("{error}"));
+    let points = vec![anchor(Some(3), [0.0, 0.0, -1.0]), anchor(Some(4), [0.0, 0.0, -0.02])];
+    let mut forces = vec![
+        Force { name: "air".into(), kind: ForceKind::Drag { points, linear: 0.05, quadratic: 0.0, wind: [0.0; 3] } },
+        Force {
+            name: "hinge".into(),
+            kind: ForceKind::JointSpring { coordinate: 3, stiffness: 0.01, rest: 0.1, damping: 0.0 },
+        },
+    ];
+    if spring {
+        let ends = [anchor(Some(0), [0.0, 0.0, -1.0]), anchor(Some(2), [0.0, 0.0, -0.02])];
+        forces.push(Force {
+            name: "tie".into(),
+            kind: ForceKind::Spring { ends, stiffness: 1.0, length: 3.0, damping: 0.0 },
+        });
+    }
+    let mut system = system.with_forces(forces).unwrap_or_else(|error| panic!("{error}"));
+    system.questions.energies = true;
+    system.reactions = true;
+    system
+}
+
+#[test]
+fn islands_are_integrated_as_if_alone_and_recorded_together() {
+    let system = slow_and_fast(false);
+    let islands = system.islands();
+    let parts: Vec<&[usize]> = islands.iter().map(|island| &island.parts[..]).collect();
+    // In the order of placement: p, q, hook, r, s.
+    assert_eq!(parts, [&[0, 1, 2][..], &[3, 4][..]]);
+    assert_eq!(islands[1].mechanism.coordinates, ["c", "d"]);
+    let split = run(&system, FINE, 3.0);
+    let whole = run(&Mechanism { simplify: false, ..system.clone() }, FINE, 3.0);
+    let tolerance =
+        Tol::stated(1e-9, "errors of the tolerance 1e-14, which thirty swings of the fast pendulum magnify");
+    assert_same_motion(&split.history, &whole.history, tolerance);
+    for (found, expected) in
+        [(&split.history.works, &whole.history.works), (&split.history.energies, &whole.history.energies)]
+    {
+        assert_eq!((found.len(), found[20].len()), (expected.len(), expected[20].len()));
+        assert_close("works and energies", found.as_flattened_rows(), expected.as_flattened_rows(), tolerance);
+    }
+    assert_eq!(split.history.energy_names, whole.history.energy_names);
+    assert_eq!(split.history.reactions.len(), 21);
+    // Each island by itself takes these steps and evaluations: none is made for the other.
+    let alone = islands.iter().map(|island| run(&island.mechanism, FINE, 3.0));
+    let sums = alone.fold([0; 2], |sum, run| [sum[0] + run.steps, sum[1] + run.force_evaluations]);
+    assert_eq!([split.steps, split.force_evaluations], sums);
+    let drift = split.history.drifts().energy.map_or(f64::NAN, |drift| drift.max_relative);
+    assert_close("drift", &[drift], &[0.0], Tol::stated(1e-12, "the tolerance 1e-14 times some hundred steps"));
+}
+
+trait Rows {
+    fn as_flattened_rows(&self) -> &[f64];
+}
+
+impl Rows for Vec<Vec<f64>> {
+    /// The last row: it has all that came before in it.
+    fn as_flattened_rows(&self) -> &[f64] {
+        self.last().map_or(&[], |row| &row[..])
+    }
+}
+
+#[test]
+fn what_a_spring_or_a_fixed_step_holds_together_is_one_island() {
+    assert_eq!(slow_and_fast(true).islands().len(), 1);
+    let system = slow_and_fast(false);
+    let fixed = Method::GaussLegendre { order: piola_integrators::Order::Eight, step: 0.01 };
+    let run = run(&system, fixed, 0.5);
+    assert_eq!(run.steps, 60); // 20 instants, each after three steps of at most 0.01 s
+}
+
+#[test]
+fn a_run_of_islands_that_is_stopped_has_a_record() {
+    let system = System::Mechanism(Box::new(slow_and_fast(false)));
+    let timetable = Timetable::new(TimeSpan { start: 0.0, end: 3.0 }, 21, &[]);
+    let stop = &mut |progress: piola_simulation::motion::Progress| {
+        if 40 <= progress.steps { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let run = simulate(&system, FINE, &timetable, stop);
+    assert_eq!((run.outcome, run.steps), (Outcome::Interrupted, 40));
+    assert!(!run.history.times.is_empty() && run.history.times.len() == run.history.positions.len());
+    assert!(!run.history.invariants.is_empty());
+}
+
+fn top(angles: [f64; 3], rates: [f64; 3], height: f64) -> Mechanism {
+    let coordinates = [0, 1, 2].map(|i| Coordinate {
+        name: format!("angle {i}"),
+        angular: true,
+        position: angles[i],
+        velocity: rates[i],
+    });
+    let base = fixed(None, [0.5, -0.25, 1.0]);
+    let tip =
+        Joint { parent: Some(0), offset: [0.0; 3], motion: JointMotion::Spherical, coordinates: coordinates.into() };
+    let disc = body(1, "disc", [0.0, 0.0, height], [0.3, 0.3, 0.5]);
+    let rim = fixed(Some(1), [0.0, 0.0, 0.5 * height]);
+    let parts = vec![disc, body(2, "axle", [0.0; 3], [0.2, 0.2, 0.01])];
+    mechanism(vec![base, tip, rim], parts)
+}
+
+#[test]
+fn a_top_in_closed_form_evaluates_no_force_and_agrees_with_an_integration() {
+    let cases = [
+        ([0.3, 0.5, -0.2], [0.0, 0.0, 60.0], 0.5),
+        ([0.0, 1.2, 0.0], [0.5, -1.0, 8.0], 0.5),
+        // Hanging, with the precession against the spin.
+        ([7.0, 0.9, -20.0], [1.5, 0.4, -5.0], -0.4),
+        ([0.0, 2.8, 0.0], [2.0, 0.1, 0.0], -0.4),
+    ];
+    for (angles, rates, height) in cases {
+        let system = top(angles, rates, height);
+        assert!(system.has_closed_form());
+        let closed = run(&system, Method::ClosedForm, 4.0);
+        assert_eq!((closed.force_evaluations, closed.steps, closed.rejected), (0, 20, 0));
+        let integrated = run(&system, FINE, 4.0);
+        // With all whole turns: the angles grow by up to 240 rad.
+        let tolerance = Tol::stated(1e-10, "of the integration, whose errors grow with the turns");
+        assert_same_motion(&closed.history, &integrated.history, tolerance);
+        let drift = closed.history.drifts().energy.map_or(f64::NAN, |drift| drift.max_relative);
+        assert_close("drift", &[drift], &[0.0], Tol::stated(1e-13, "of the rounding of angles of a hundred turns"));
+    }
+}
+
+#[test]
+fn what_is_no_symmetric_top_has_no_closed_form() {
+    let start = ([0.3, 0.5, -0.2], [0.0, 0.0, 60.0]);
+    let system = top(start.0, start.1, 0.5);
+    let pushed = Force {
+        name: "push".into(),
+        kind: ForceKind::JointSpring { coordinate: 0, stiffness: 1.0, rest: 0.0, damping: 0.0 },
+    };
+    let pushed = system.clone().with_forces(vec![pushed]).unwrap_or_else(|error| panic!("{error}"));
+    let tilted = Mechanism { gravity: [1.0, 0.0, -9.81], ..system.clone() };
+    let beyond = top([0.3, -0.5, -0.2], start.1, 0.5);
+    let mut lopsided = system.clone();
+    lopsided.position[1] = 4.0;
+    for other in [pushed, tilted, beyond, lopsided] {
+        assert!(!other.has_closed_form());
+        let timetable = Timetable::new(TimeSpan { start: 0.0, end: 1.0 }, 3, &[]);
+        let run = simulate(&System::Mechanism(Box::new(other)), Method::ClosedForm, &timetable, &mut |_| {
+            ControlFlow::Continue(())
+        });
+        assert!(matches!(&run.outcome, Outcome::Failed(why) if why.contains("symmetric top")), "{:?}", run.outcome);
+    }
+}

@@ -1,0 +1,7 @@
+//! The target `scene`.
+#![no_main]
+
+#[path = "../bodies/scene.rs"]
+mod body;
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| body::run(data));
