@@ -9,6 +9,9 @@ use super::RobotStudy;
 use crate::run::Outcome;
 use crate::studies::observer::Observer;
 
+/// Works that a run integrates.
+const WORKS: usize = 3;
+
 /// A recorded instant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotSample {
@@ -20,14 +23,14 @@ pub struct RobotSample {
     pub v: Vec<f64>,
     /// Kinetic energy, potential energy in gravity, energy of springs, J.
     pub energies: [f64; 3],
-    /// Work of torques, forces and damping since the start, J.
-    pub work: f64,
+    /// Work of torques and forces, of damping, of Coulomb friction since the start, J.
+    pub works: [f64; WORKS],
 }
 
 impl RobotSample {
     /// What the balance of energy compares: it is constant.
     fn balance(&self) -> f64 {
-        self.energies.iter().sum::<f64>() - self.work
+        self.energies.iter().sum::<f64>() - self.works.iter().sum::<f64>()
     }
 }
 
@@ -50,22 +53,24 @@ pub struct RobotMotion {
     pub names: Vec<String>,
 }
 
-/// A motion with the work of its torques as one number more.
-struct WithWork<'a, F> {
+/// A motion with the works of its forces as numbers more.
+struct WithWorks<'a, F> {
     motion: F,
     robot: &'a RobotStudy,
 }
 
-impl<F: Field<Error = MultibodyError>> Field for WithWork<'_, F> {
+impl<F: Field<Error = MultibodyError>> Field for WithWorks<'_, F> {
     type Error = MultibodyError;
     fn dimension(&self) -> usize {
-        self.motion.dimension() + 1
+        self.motion.dimension() + WORKS
     }
     fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), MultibodyError> {
         let n = self.motion.dimension();
         self.motion.rate(t, &y[..n], &mut rate[..n])?;
         let (q, v) = y[..n].split_at(self.robot.closed.tree().coordinates());
-        rate[n] = self.robot.drives.iter().zip(v).map(|(drive, &v)| drive.efforts(q, v)[0] * v).sum();
+        let powers = self.robot.closed.tree().joint_powers(q, v, self.robot.slip_rate)?;
+        let driven = self.robot.drives.iter().zip(v).map(|(drive, &v)| drive.effort * v).sum();
+        rate[n..].copy_from_slice(&[driven, powers.damping_power, powers.friction_power]);
         Ok(())
     }
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), MultibodyError> {
@@ -75,16 +80,19 @@ impl<F: Field<Error = MultibodyError>> Field for WithWork<'_, F> {
     fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
         let n = self.motion.dimension();
         self.motion.magnitudes(&y[..n], &mut magnitudes[..n]);
-        // The work follows the motion: its error decides on no step.
-        magnitudes[n] = f64::INFINITY;
+        // Works follow the motion: their errors decide on no step.
+        magnitudes[n..].fill(f64::INFINITY);
     }
 }
 
 impl RobotStudy {
     fn drive(&self, q: &[f64], v: &[f64], tau: &mut [f64]) {
-        for ((tau, drive), &v) in tau.iter_mut().zip(&self.drives).zip(v) {
-            let [effort, spring, _] = drive.efforts(q, v);
-            *tau = effort + spring;
+        // A state that is refused here is refused by the dynamics, with its reason.
+        if self.closed.tree().joint_forces(q, v, self.slip_rate, tau).is_err() {
+            tau.fill(f64::NAN);
+        }
+        for (tau, drive) in tau.iter_mut().zip(&self.drives) {
+            *tau += drive.effort;
         }
     }
 
@@ -92,13 +100,13 @@ impl RobotStudy {
         let mut found = RobotMotion { names: self.names[0].clone(), ..RobotMotion::default() };
         let forces = |_t: f64, q: &[f64], v: &[f64], tau: &mut [f64]| self.drive(q, v, tau);
         let outcome = if self.closed.conditions() == 0 {
-            self.follow(&mut WithWork { motion: self.closed.tree().motion(forces), robot: self }, &mut found, observer)
+            self.follow(&mut WithWorks { motion: self.closed.tree().motion(forces), robot: self }, &mut found, observer)
         } else {
             let mut motion = self.closed.motion(forces);
             if self.stops {
                 motion = motion.stopping_at_singular_positions();
             }
-            let mut motion = WithWork { motion, robot: self };
+            let mut motion = WithWorks { motion, robot: self };
             let outcome = self.follow(&mut motion, &mut found, observer);
             let passed = motion.motion.singular_positions().iter();
             let named = |condition| self.closed.closure_of(condition).to_string();
@@ -122,7 +130,7 @@ impl RobotStudy {
     ) -> Result<Ending, String> {
         let (start, end) = (self.time.start, self.time.end);
         found.reached = start;
-        let values = [&self.start.0[..], &self.start.1, &[0.0]].concat();
+        let values = [&self.start.0[..], &self.start.1, &[0.0; WORKS]].concat();
         let mut y = values.clone();
         let in_words = |error: IntegratorsError| error.to_string();
         let mut state = State::new(start, values).map_err(in_words)?;
@@ -171,13 +179,13 @@ impl RobotStudy {
         tree.normalise(q)?;
         let (v, done) = rest.split_at(tree.freedoms());
         let energies = tree.tree_energies(work, q, v)?;
-        let springs = self.drives.iter().zip(v).map(|(drive, &v)| drive.efforts(q, v)[2]).sum();
+        let springs = tree.joint_powers(q, v, self.slip_rate)?.spring_energy;
         found.samples.push(RobotSample {
             t,
             q: q.to_vec(),
             v: v.to_vec(),
             energies: [energies.kinetic, energies.potential, springs],
-            work: done[0],
+            works: [done[0], done[1], done[2]],
         });
         Ok(())
     }
@@ -189,7 +197,7 @@ impl RobotMotion {
         let (mut change, mut size) = (0.0_f64, 0.0_f64);
         for sample in &self.samples {
             change = change.max((sample.balance() - first).abs());
-            size = sample.energies.iter().chain([&sample.work]).fold(size, |size, energy| size.max(energy.abs()));
+            size = sample.energies.iter().chain(&sample.works).fold(size, |size, energy| size.max(energy.abs()));
         }
         self.energy_error = if 0.0 < size { change / size } else { 0.0 };
         for drive in &robot.drives {
