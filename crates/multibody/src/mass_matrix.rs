@@ -248,5 +248,12 @@ pub(crate) fn add_to_parent<T: Real, E: Elementary<T, N>, const N: usize>(
 /// Writes the products of the freedoms' vectors from `first` with (moment, force).
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn dots<T: Real>(rows: &Rows<T>, row: usize, first: usize, moment: [T; 3], force: [T; 3], out: &mut [T]) {
-    rows.products([(row, moment), (row + 3, force)], first, out);
+    let count = out.len();
+    let of = |k: usize| &rows.row(row + k)[first..first + count];
+    let (x, y, z) = (of(0), of(1), of(2));
+    let (u, v, w) = (of(3), of(4), of(5));
+    for i in 0..count {
+        out[i] = (x[i] * moment[0] + y[i] * moment[1] + z[i] * moment[2])
+            + (u[i] * force[0] + v[i] * force[1] + w[i] * force[2]);
+    }
 }

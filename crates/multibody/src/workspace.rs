@@ -76,64 +76,12 @@ pub(crate) struct Rows<T> {
 }
 
 impl<T: Real> Rows<T> {
-    /// Rows of a length that fours divide, with so many numbers behind the last one that groups of eight may end there.
     fn new(rows: usize, freedoms: usize) -> Self {
-        let stride = freedoms.next_multiple_of(FOUR);
-        Self { rows: vec![T::zero(); rows * stride + 2 * FOUR], stride }
+        Self { rows: vec![T::zero(); rows * freedoms], stride: freedoms }
     }
-    /// Numbers of a row from one freedom on, perhaps beyond its end.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn group<const G: usize>(&self, row: usize, freedom: usize) -> [T; G] {
-        let mut out = [T::zero(); G];
-        let from = row * self.stride + freedom;
-        out.copy_from_slice(&self.rows[from..from + G]);
-        out
-    }
-    /// Writes the products of the vectors of the freedoms from `first` on, three rows each, with as many vectors: their sums.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn products<const M: usize>(&self, parts: [(usize, Vector<T>); M], first: usize, out: &mut [T]) {
-        let mut done = 0;
-        if T::LANES == 1 {
-            while 2 * FOUR <= out.len() - done {
-                let sum = self.products_of::<M, { 2 * FOUR }>(parts, first + done);
-                out[done..done + 2 * FOUR].copy_from_slice(&sum);
-                done += 2 * FOUR;
-            }
-            while done < out.len() {
-                let [a, b, c, d] = self.products_of::<M, FOUR>(parts, first + done);
-                match &mut out[done..] {
-                    [w, x, y, z, ..] => (*w, *x, *y, *z) = (a, b, c, d),
-                    [w, x, y] => (*w, *x, *y) = (a, b, c),
-                    [w, x] => (*w, *x) = (a, b),
-                    [w] => *w = a,
-                    [] => {}
-                }
-                done += FOUR;
-            }
-        }
-        while done < out.len() {
-            out[done] = self.products_of::<M, 1>(parts, first + done)[0];
-            done += 1;
-        }
-    }
-    /// The same for a group of freedoms: loads come before stores, so that they go by registers.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn products_of<const M: usize, const G: usize>(&self, parts: [(usize, Vector<T>); M], first: usize) -> [T; G] {
-        let mut sum = [T::zero(); G];
-        let mut m = 0;
-        while m < M {
-            let (row, factor) = parts[m];
-            let (x, y, z) =
-                (self.group::<G>(row, first), self.group::<G>(row + 1, first), self.group::<G>(row + 2, first));
-            let mut i = 0;
-            while i < G {
-                let part = x[i] * factor[0] + y[i] * factor[1] + z[i] * factor[2];
-                sum[i] = if m == 0 { part } else { sum[i] + part };
-                i += 1;
-            }
-            m += 1;
-        }
-        sum
+    pub(crate) fn row(&self, row: usize) -> &[T] {
+        &self.rows[row * self.stride..(row + 1) * self.stride]
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn put(&mut self, row: usize, freedom: usize, value: Vector<T>) {
@@ -189,12 +137,9 @@ pub struct TreeWorkspace<T> {
     pub(crate) dense: Vec<T>,
 }
 
-/// Freedoms up to which derivatives of one state are found by M⁻¹ and products with it, n³ operations. Beyond, each column is solved
-/// along the tree: n × links, but in longer passes.
-pub(crate) const DENSE: usize = 64;
-
-/// The same for states in lanes, where M⁻¹ is found along the tree too.
-pub(crate) const DENSE_IN_LANES: usize = 12;
+/// Freedoms up to which M⁻¹ multiplies columns, n³ operations. Beyond, each column is solved along the tree: n × links, but in
+/// longer passes.
+pub(crate) const DENSE: usize = 12;
 
 /// Rows of a product that are summed at once.
 pub(crate) const FOUR: usize = 4;

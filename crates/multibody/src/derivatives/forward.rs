@@ -10,7 +10,6 @@
 use piola_numerics::{Kernel, Mask, Real, dispatch};
 
 use super::columns::{gains_in_space, solve_columns};
-use super::dense;
 use super::inverse::differentiate;
 use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_length};
@@ -19,7 +18,7 @@ use crate::link::{Elementary, Link};
 use crate::spatial::{add, times};
 use crate::tree::RigidTree;
 use crate::turn::Turning;
-use crate::workspace::{DENSE, DENSE_IN_LANES, FOUR, LinkArticulation, LinkInSpace, TreeWorkspace};
+use crate::workspace::{DENSE, FOUR, LinkArticulation, LinkInSpace, TreeWorkspace};
 
 /// What [`RigidTree::forward_dynamics_derivatives`] writes: v̇ and its derivatives.
 ///
@@ -127,12 +126,6 @@ impl<T: Real> Kernel for Derivatives<'_, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> bool {
         let Self { tree, work, q, v, tau, out } = self;
-        let are_finite = |out: &AccelerationDerivatives<T>| {
-            all_finite(&out.by_q) && all_finite(&out.by_v) && all_finite(&out.by_tau)
-        };
-        if tree.freedoms <= DENSE && dense::differentiate(tree, work, (q, v, tau), out).all() && are_finite(out) {
-            return true;
-        }
         pass_outwards(tree, &mut work.articulation, q, v);
         let is_positive = pass_inwards(tree, work, tau, &mut out.acceleration);
         pass_accelerations(tree, &mut work.articulation, &work.gains, &mut out.acceleration);
@@ -160,7 +153,7 @@ pub(crate) fn differentiate_accelerations<T: Real>(
         by_tau[j * n + j] = T::one();
     }
     gains_in_space(tree, work);
-    if n <= DENSE_IN_LANES {
+    if n <= DENSE {
         solve_columns(tree, work, &mut [&mut by_tau[..]], &[1.0], n);
         multiply_columns(work, by_tau, [by_q, by_v], n);
     } else {

@@ -109,16 +109,10 @@ pub(super) fn differentiate<T: Real>(
     a: &[T],
     by_q: &mut [T],
     by_v: &mut [T],
-    by_a: Option<&mut [T]>,
+    mut by_a: Option<&mut [T]>,
 ) {
-    pass_outwards(tree, work, v, a);
-    pass_inwards(tree, work, by_q, by_v, by_a, None);
-}
-
-/// What each link needs at accelerations, and the vectors of its freedoms.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn pass_outwards<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace<T>, v: &[T], a: &[T]) {
-    let TreeWorkspace { space, rows, composite, .. } = work;
+    let n = tree.freedoms;
+    let TreeWorkspace { space, rows, composite, column, .. } = work;
     let reference = reference(space);
     // At rest but for gravity.
     space[0].acceleration = lit([-tree.gravity[0], -tree.gravity[1], -tree.gravity[2]]);
@@ -126,21 +120,6 @@ pub(super) fn pass_outwards<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace<
         for_kind!(link.kind, outwards::<T>(link, i + 1, space, rows, composite, reference, v, a));
     }
     space[0].acceleration = [T::zero(); 3];
-}
-
-/// The derivatives from what the pass outwards left. The composite bodies are summed on the way, or they are summed already, without
-/// the forces that the accelerations `more` need beyond each link.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn pass_inwards<T: Real>(
-    tree: &RigidTree,
-    work: &mut TreeWorkspace<T>,
-    by_q: &mut [T],
-    by_v: &mut [T],
-    mut by_a: Option<&mut [T]>,
-    more: Option<&[T]>,
-) {
-    let n = tree.freedoms;
-    let TreeWorkspace { space, rows, composite, column, .. } = work;
     if tree.links.iter().any(|link| link.run != 1) {
         by_q.fill(T::zero());
         by_v.fill(T::zero());
@@ -149,19 +128,11 @@ pub(super) fn pass_inwards<T: Real>(
         }
     }
     for (i, link) in tree.links.iter().enumerate().rev() {
-        let mut beyond = (space[i + 1].w, space[i + 1].velocity);
-        if more.is_some() {
-            let own = &mut composite[i + 1];
-            (own.torque, own.force) = add_pairs((own.torque, own.force), beyond);
-        }
         let freedoms = link.kind.freedoms();
         let mut k = 0;
         while k < freedoms {
             let j = link.v + k;
             let of = Vectors::of(&composite[i + 1], rows, j);
-            if let Some(more) = more {
-                beyond = add_pairs(beyond, (scaled(more[j], of.first.0), scaled(more[j], of.first.1)));
-            }
             for (first, end) in Runs::of(tree, i + 1) {
                 let before = end.min(link.v);
                 dots(rows, SUBSPACE, first, of.second.0, of.second.1, &mut by_v[j * n + first..j * n + end]);
@@ -189,26 +160,14 @@ pub(super) fn pass_inwards<T: Real>(
             }
             k += 1;
         }
-        if link.parent == 0 {
-            continue;
-        }
-        if more.is_some() {
-            let parent = &mut space[link.parent];
-            (parent.w, parent.velocity) = add_pairs((parent.w, parent.velocity), beyond);
-        } else {
-            add_to_parent(composite, i + 1, link.parent);
+        if link.parent != 0 {
+            let (before, after) = composite.split_at_mut(i + 1);
+            let (parent, child) = (&mut before[link.parent], &after[0]);
+            add_velocity_product(parent, child);
+            parent.torque = add(parent.torque, child.torque);
+            parent.force = add(parent.force, child.force);
         }
     }
-}
-
-/// Adds the composite body of a link to that of its parent.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn add_to_parent<T: Real>(composite: &mut [Composite<T>], state: usize, parent: usize) {
-    let (before, after) = composite.split_at_mut(state);
-    let (parent, child) = (&mut before[parent], &after[0]);
-    add_velocity_product(parent, child);
-    parent.torque = add(parent.torque, child.torque);
-    parent.force = add(parent.force, child.force);
 }
 
 /// u₁ to u₄ of a freedom.
@@ -239,8 +198,18 @@ impl<T: Real> Vectors<T> {
 /// The derivatives of one τ with respect to freedoms nearer to the ground, from `first`: by q, or by v.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn across<T: Real>(rows: &Rows<T>, first: usize, of: &Vectors<T>, out: &mut [T], by_q: bool) {
+    let count = out.len();
+    let row = |k: usize| &rows.row(k)[first..first + count];
     let (with_first, with_fourth) = if by_q { (SECOND_RATE, RATE) } else { (BOTH_RATES, SUBSPACE) };
-    rows.products([(with_first, of.first.0), (with_first + 3, of.first.1), (with_fourth, of.fourth)], first, out);
+    let (x, y, z) = (row(with_first), row(with_first + 1), row(with_first + 2));
+    let (u, v, w) = (row(with_first + 3), row(with_first + 4), row(with_first + 5));
+    let (a, b, c) = (row(with_fourth), row(with_fourth + 1), row(with_fourth + 2));
+    let (moment, force, fourth) = (of.first.0, of.first.1, of.fourth);
+    for i in 0..count {
+        out[i] = (x[i] * moment[0] + y[i] * moment[1] + z[i] * moment[2])
+            + (u[i] * force[0] + v[i] * force[1] + w[i] * force[2])
+            + (a[i] * fourth[0] + b[i] * fourth[1] + c[i] * fourth[2]);
+    }
 }
 
 /// Motions at the reference point (in the fields of velocities and accelerations), the freedoms' vectors, and what each link

@@ -4,7 +4,6 @@
 //! [`move_configuration`](crate::RigidTree::move_configuration).
 
 mod columns;
-mod dense;
 mod forward;
 mod inverse;
 

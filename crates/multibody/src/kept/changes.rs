@@ -6,6 +6,7 @@ use crate::tree::RigidTree;
 
 /// Of a link, or the ground.
 #[derive(Clone, Copy, Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a question of its own")]
 pub(super) struct Change {
     /// Its own coordinates differ.
     pub(super) place: bool,

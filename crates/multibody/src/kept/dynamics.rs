@@ -201,14 +201,14 @@ impl<'a, T: Real> KeptDynamics<'a, T> {
         for (i, link) in tree.links.iter().enumerate().rev() {
             let change = links[i + 1];
             if change.force {
-                let joint = Joint {
+                let mut joint = Joint {
                     is_reshaped: change.shape || change.place,
                     armature: &tree.armature,
                     tau,
                     inertia: &mut inertias[i + 1],
                 };
                 let (pair, mask) =
-                    for_kind!(link.kind, inwards::<T>(link, &states[i + 1], gains, inverses, joint, efforts));
+                    for_kind!(link.kind, inwards::<T>(link, &states[i + 1], gains, inverses, &mut joint, efforts));
                 felt[i + 1] = pair;
                 is_positive = is_positive & mask;
                 counts.inertias += usize::from(change.shape || change.place);
@@ -251,7 +251,7 @@ fn inwards<T: Real, E: Elementary<T, N>, const N: usize>(
     child: &LinkArticulation<T>,
     gains: &mut [Pair<T>],
     inverses: &mut [T],
-    given: Joint<'_, T>,
+    given: &mut Joint<'_, T>,
     efforts: &mut [T],
 ) -> (Pair<T>, T::Mask) {
     let inertia = with_own(link, child);
