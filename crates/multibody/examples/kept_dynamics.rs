@@ -100,14 +100,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         let (base, of_q, of_v) = if tree.coordinates() == n { (0, 0, 0) } else { (4, 7, 6) };
         let middle = n / 2;
         let (every_q, every_v): (Vec<_>, Vec<_>) = ((of_q..=last).collect(), (of_v..n).collect());
-        row(&name, &tree, "the force of the last joint", [&[], &[], &[n - 1]])?;
-        row(&name, &tree, "q of the last joint", [&[last], &[], &[]])?;
-        row(&name, &tree, "q, v of the last joint and its force", [&[last], &[n - 1], &[n - 1]])?;
-        row(&name, &tree, "q of a joint in the middle", [&[last + 1 - n + middle], &[], &[]])?;
-        row(&name, &tree, "all forces", [&[], &[], &every_v])?;
-        row(&name, &tree, "all v", [&[], &every_v, &[]])?;
-        row(&name, &tree, "q of the base", [&[base], &[], &[]])?;
-        row(&name, &tree, "all q, v and forces", [&every_q, &every_v, &every_v])?;
+        row(name, &tree, "the force of the last joint", [&[], &[], &[n - 1]])?;
+        row(name, &tree, "q of the last joint", [&[last], &[], &[]])?;
+        row(name, &tree, "q, v of the last joint and its force", [&[last], &[n - 1], &[n - 1]])?;
+        row(name, &tree, "q of a joint in the middle", [&[last + 1 - n + middle], &[], &[]])?;
+        row(name, &tree, "all forces", [&[], &[], &every_v])?;
+        row(name, &tree, "all v", [&[], &every_v, &[]])?;
+        row(name, &tree, "q of the base", [&[base], &[], &[]])?;
+        row(name, &tree, "all q, v and forces", [&every_q, &every_v, &every_v])?;
     }
     Ok(())
 }

@@ -2,7 +2,6 @@
 
 use piola_numerics::Real;
 
-use crate::link::Pair;
 use crate::spatial::{ENTRY, Matrix, Symmetric, Vector, add, cross, product, symmetric_times, times, transposed_times};
 
 /// A rotation R that takes components in the child's axes to components in the parent's.
@@ -28,8 +27,8 @@ pub(crate) trait Turning<T: Real>: Copy {
 pub(crate) fn wrench_to_parent<T: Real, R: Turning<T>>(
     turn: R,
     origin: Vector<T>,
-    (moment, force): Pair<T>,
-) -> Pair<T> {
+    (moment, force): (Vector<T>, Vector<T>),
+) -> (Vector<T>, Vector<T>) {
     let force = turn.to_parent(force);
     (add(turn.to_parent(moment), cross(origin, force)), force)
 }
