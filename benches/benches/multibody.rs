@@ -1,8 +1,10 @@
 //! Nanoseconds of the dynamics of trees of rigid bodies.
 //!
 //! An item is one joint of one state for inverse and forward dynamics, and one state for mass matrices and derivatives. Chains
-//! are of rods of 1 m and 1 kg with axes y and x in turn; the arm UR5 is that of the reference data. `lanes` are batches of 64
-//! states on one core. The kept mass matrix follows a tree of which the last joint alone moves.
+//! are of rods of 1 m and 1 kg with axes y and x in turn; the arm UR5 is that of the reference data. The other robots are made of the
+//! same rods: an arm of seven joints with a gripper of two slides (9 freedoms), a quadruped (18), a humanoid with hands (50). `lanes` are batches of 64
+//! states on one core. The kept mass matrix follows a tree of which the last joint alone moves,
+//! and so do the kept dynamics.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -10,7 +12,7 @@ use std::time::Duration;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
 use piola_multibody::{
-    AccelerationDerivatives, BatchWorkspace, DerivativeBlocks, KeptMassMatrix, RigidTree, StateBlocks,
+    AccelerationDerivatives, BatchWorkspace, DerivativeBlocks, KeptDynamics, KeptMassMatrix, RigidTree, StateBlocks,
 };
 
 #[path = "../../crates/multibody/tests/it/trees.rs"]
@@ -27,6 +29,12 @@ fn main() {
     group.warm_up_time(Duration::from_millis(50)).measurement_time(Duration::from_millis(300));
     single(&mut group, "ur5", &trees::ur5());
     batch(&mut group, "ur5", &trees::ur5());
+    let robots =
+        [("gripper_arm", trees::gripper_arm()), ("quadruped", trees::quadruped()), ("humanoid", trees::humanoid())];
+    for (name, tree) in &robots {
+        single(&mut group, name, tree);
+        batch(&mut group, name, tree);
+    }
     for links in [10, 30, 100, 300, 1000] {
         let (name, tree) = (format!("chain_{links}"), trees::chain(links));
         single(&mut group, &name, &tree);
@@ -69,6 +77,18 @@ fn single(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, tree: &RigidTree
             let _ = black_box(kept.update(black_box(&moved)));
         });
     });
+    let (mut kept, mut rates) = (KeptDynamics::new(tree), v.clone());
+    for (name_of, forward) in [("kept_inverse_dynamics", false), ("kept_forward_dynamics", true)] {
+        group.bench_function(format!("{name_of}/{name}"), |bencher| {
+            bencher.iter(|| {
+                rates[n - 1] += 1e-9;
+                let rates = black_box(&rates);
+                let found =
+                    if forward { kept.forward_dynamics(&q, rates, &a) } else { kept.inverse_dynamics(&q, rates, &a) };
+                let _ = black_box(found);
+            });
+        });
+    }
     let mut derivatives = AccelerationDerivatives::new(tree);
     group.bench_function(format!("forward_dynamics_derivatives/{name}"), |bencher| {
         bencher.iter(|| {
@@ -80,14 +100,15 @@ fn single(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, tree: &RigidTree
 
 fn batch(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, tree: &RigidTree) {
     let n = tree.freedoms();
-    let blocks = |of: fn(trees::State) -> Vec<f64>| {
-        let mut blocks = StateBlocks::new(n, STATES);
+    let blocks = |components: usize, of: fn(trees::State) -> Vec<f64>| {
+        let mut blocks = StateBlocks::new(components, STATES);
         for state in 0..STATES {
             let _ = blocks.set(state, &of(trees::state_of(tree, state as u64 + 1)));
         }
         blocks
     };
-    let (q, v, a) = (blocks(|state| state.q), blocks(|state| state.v), blocks(|state| state.a));
+    let q = blocks(tree.coordinates(), |state| state.q);
+    let (v, a) = (blocks(n, |state| state.v), blocks(n, |state| state.a));
     let mut out = a.clone();
     let mut work = BatchWorkspace::new(tree, 1);
     group.throughput(Throughput::Elements((n * STATES) as u64));

@@ -14,6 +14,7 @@
 #include <pinocchio/algorithm/aba-derivatives.hpp>
 #include <pinocchio/algorithm/aba.hpp>
 #include <pinocchio/algorithm/crba.hpp>
+#include <pinocchio/algorithm/joint-configuration.hpp>
 #include <pinocchio/algorithm/rnea-derivatives.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
 
@@ -22,6 +23,8 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace pinocchio;
 
@@ -90,13 +93,74 @@ Model ur5() {
     return model;
 }
 
+// A tree of equal rods, as `robot` in crates/multibody/tests/it/trees.rs: of each its parent, from 1, and its joint.
+using Joints = std::vector<std::pair<int, char>>;
+
+int limb(Joints& joints, int parent, const std::string& letters) {
+    for (const char letter : letters) {
+        joints.emplace_back(parent, letter);
+        parent = static_cast<int>(joints.size());
+    }
+    return parent;
+}
+
+Model robot(const Joints& joints) {
+    Model model;
+    const Eigen::Matrix3d inertia = Eigen::Vector3d(0.084, 0.084, 0.0013).asDiagonal();
+    for (std::size_t i = 0; i < joints.size(); i++) {
+        const auto [parent, letter] = joints[i];
+        SE3 place = SE3::Identity();
+        if (0 < parent) place.translation() = Eigen::Vector3d(0.1, 0.05, -0.3);
+        const std::string name = "j" + std::to_string(i);
+        JointIndex joint = 0;
+        switch (letter) {
+            case 'x': joint = model.addJoint(parent, JointModelRX(), place, name); break;
+            case 'y': joint = model.addJoint(parent, JointModelRY(), place, name); break;
+            case 'z': joint = model.addJoint(parent, JointModelRZ(), place, name); break;
+            case 's': joint = model.addJoint(parent, JointModelPY(), place, name); break;
+            default: joint = model.addJoint(parent, JointModelFreeFlyer(), place, name);
+        }
+        model.appendBodyToJoint(joint, Inertia(1.0, Eigen::Vector3d(0, 0, -0.5), inertia), SE3::Identity());
+    }
+    return model;
+}
+
+Model gripper_arm() {
+    Joints joints;
+    const int hand = limb(joints, 0, "zyzyzyz");
+    limb(joints, hand, "s");
+    limb(joints, hand, "s");
+    return robot(joints);
+}
+
+Model quadruped() {
+    Joints joints;
+    const int trunk = limb(joints, 0, "f");
+    for (int i = 0; i < 4; i++) limb(joints, trunk, "xyy");
+    return robot(joints);
+}
+
+Model humanoid() {
+    Joints joints;
+    const int pelvis = limb(joints, 0, "f");
+    for (int i = 0; i < 2; i++) limb(joints, pelvis, "zxyyyx");
+    const int torso = limb(joints, pelvis, "zy");
+    limb(joints, torso, "zy");
+    for (int i = 0; i < 2; i++) {
+        const int hand = limb(joints, torso, "yxzyzyx");
+        limb(joints, hand, "yy");
+        limb(joints, hand, "yy");
+        limb(joints, hand, "zyy");
+    }
+    return robot(joints);
+}
+
 void row(const std::string& name, const Model& model) {
     Data data(model);
-    Eigen::VectorXd q(model.nv), v(model.nv);
-    for (int i = 0; i < model.nv; i++) {
-        q[i] = std::sin(i);
-        v[i] = std::cos(1.3 * i);
-    }
+    Eigen::VectorXd q(model.nq), v(model.nv);
+    for (int i = 0; i < model.nq; i++) q[i] = std::sin(i);
+    normalize(model, q);
+    for (int i = 0; i < model.nv; i++) v[i] = std::cos(1.3 * i);
     const Eigen::VectorXd a = v;
     const double inverse = least([&] { rnea(model, data, q, v, a); }) / model.nv;
     const double forward = std::min(least([&] { aba(model, data, q, v, a, Convention::LOCAL); }),
@@ -111,5 +175,8 @@ void row(const std::string& name, const Model& model) {
 int main() {
     std::printf("| tree | inverse | forward | M | d tau | d acceleration |\n|---|---|---|---|---|---|\n");
     row("ur5", ur5());
+    row("arm with gripper, nv 9", gripper_arm());
+    row("quadruped, nv 18", quadruped());
+    row("humanoid, nv 50", humanoid());
     for (int links : {10, 30, 100, 300}) row("chain " + std::to_string(links), chain(links));
 }

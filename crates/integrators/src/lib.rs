@@ -21,6 +21,7 @@ mod legendre;
 mod nystrom;
 mod order;
 mod processed;
+mod report;
 mod second_order;
 mod sensitivity;
 mod splitting;
@@ -44,13 +45,14 @@ pub use gauss_radau_15::{GaussRadau15, GaussRadauStep};
 pub use nystrom::{Nystrom, Nystrom86, Nystrom1210, NystromPair, NystromPair86, NystromPair1210, NystromStep};
 pub use order::Order;
 pub use processed::ProcessedSplitting;
+pub use report::{Ending, Report, Step, unobserved};
 pub use second_order::SecondOrder;
 pub use sensitivity::{
     AdjointSensitivity, ForwardSensitivity, JacobianProduct, Objective, ObjectiveGradient, ParametricField,
     Sensitivities, SensitivityInputs, WithParameters,
 };
 pub use splitting::{SplittingScheme, SplittingStage};
-pub use state::{Ending, Report, State, Step, unobserved};
+pub use state::State;
 pub use tolerance::Tolerance;
 pub use turning_frame::TurningFrame;
 pub use verner::{Verner98, VernerPair};

@@ -38,6 +38,7 @@ mod action;
 pub mod anholonomic;
 mod change_of_coordinates;
 mod check;
+mod chunks;
 mod collect;
 mod conditioning;
 pub mod constraints;

@@ -53,21 +53,27 @@ fn row(name: &str, tree: &RigidTree) -> Result<[f64; 2], MultibodyError> {
         let (q, by_q) = (black_box(&q), black_box(&mut matrix));
         tree.inverse_dynamics_derivatives(&mut work, q, &v, &a, by_q, &mut by_v, &mut by_a)
     })?;
-    let (mut states, mut batch) = (StateBlocks::new(n, 64), BatchWorkspace::new(tree, 1));
+    let (mut states, mut batch) = (StateBlocks::new(tree.coordinates(), 64), BatchWorkspace::new(tree, 1));
+    let mut rates = StateBlocks::new(n, 64);
     for i in 0..64 {
-        states.set(i, &trees::state_of(tree, i as u64 + 1).q)?;
+        let state = trees::state_of(tree, i as u64 + 1);
+        states.set(i, &state.q)?;
+        rates.set(i, &state.v)?;
     }
-    let mut outputs = states.clone();
+    let mut outputs = rates.clone();
     let each = 64.0 * n as f64;
     let inverse_lanes = least(|| {
-        tree.inverse_dynamics_of_states(&mut batch, black_box(&states), &states, &states, black_box(&mut outputs))
+        tree.inverse_dynamics_of_states(&mut batch, black_box(&states), &rates, &rates, black_box(&mut outputs))
     })? / each;
     let forward_lanes = least(|| {
-        tree.forward_dynamics_of_states(&mut batch, black_box(&states), &states, &states, black_box(&mut outputs))
+        tree.forward_dynamics_of_states(&mut batch, black_box(&states), &rates, &rates, black_box(&mut outputs))
     })? / each;
     // Matrices of large trees leave the caches whatever computes them.
-    let [mass_lanes, by_state_lanes] =
-        if n <= 100 { matrices_in_lanes(tree, &states, &mut batch)? } else { ["–", "–"].map(str::to_owned) };
+    let [mass_lanes, by_state_lanes] = if n <= 100 {
+        matrices_in_lanes(tree, [&states, &rates], &mut batch)?
+    } else {
+        ["–", "–"].map(str::to_owned)
+    };
     println!(
         "| {name} | {inverse:.1} | {forward:.1} | {inverse_lanes:.1} | {forward_lanes:.1} | {mass:.0} | {by_forces:.0} | {by_state:.0} | {mass_lanes} | {by_state_lanes} |"
     );
@@ -77,7 +83,7 @@ fn row(name: &str, tree: &RigidTree) -> Result<[f64; 2], MultibodyError> {
 /// Mass matrix and derivatives, a state.
 fn matrices_in_lanes(
     tree: &RigidTree,
-    states: &StateBlocks,
+    [states, rates]: [&StateBlocks; 2],
     batch: &mut BatchWorkspace,
 ) -> Result<[String; 2], MultibodyError> {
     let (n, count) = (tree.freedoms(), states.states());
@@ -86,7 +92,7 @@ fn matrices_in_lanes(
     let mass = least(|| tree.mass_matrix_of_states(batch, black_box(states), black_box(&mut matrices)))?;
     let by_state = least(|| {
         let states = black_box(states);
-        tree.forward_dynamics_derivatives_of_states(batch, states, states, states, black_box(&mut derivatives))
+        tree.forward_dynamics_derivatives_of_states(batch, states, rates, rates, black_box(&mut derivatives))
     })?;
     Ok([mass, by_state].map(|time| format!("{:.0}", time / count as f64)))
 }
@@ -95,6 +101,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("| tree | inverse | forward | inverse, lanes | forward, lanes | M | ∂τ | ∂v̇ | M, lanes | ∂v̇, lanes |");
     println!("|---|---|---|---|---|---|---|---|---|---|");
     row("ur5", &trees::ur5())?;
+    row("arm with gripper, nv 9", &trees::gripper_arm())?;
+    row("quadruped, nv 18", &trees::quadruped())?;
+    row("humanoid, nv 50", &trees::humanoid())?;
     let mut ends = Vec::new();
     for links in [10, 30, 100, 300, 1000] {
         ends.push(row(&format!("chain {links}"), &trees::chain(links))?);

@@ -19,10 +19,10 @@ use crate::articulation::{inverse_of, moved_to_parent, reduce, sum, with_own};
 use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_length};
 use crate::inverse_dynamics::AppliedWrench;
-use crate::link::{Elementary, Link, Pair, take};
+use crate::link::{Articulated, Elementary, Link, Pair, take};
 use crate::spatial::{add, cross, dot, lit, lit_symmetric, sub, symmetric_times};
 use crate::tree::{BodyIndex, BodyInertia, RigidTree};
-use crate::turn::Turning;
+use crate::turn::{Turning, wrench_to_parent};
 use crate::workspace::{LinkArticulation, TreeWorkspace};
 
 impl RigidTree {
@@ -184,7 +184,31 @@ fn outwards<T: Real, E: Elementary<T, N>, const N: usize>(
     q: &[T],
     v: &[T],
 ) {
-    let (turn, origin) = E::place(link, q);
+    outwards_from::<T, E, N>(link, state, states, E::place(link, q), v);
+}
+
+/// Outwards again, where the joint may stand as it did.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn outwards_again<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    state: usize,
+    states: &mut [LinkArticulation<T>],
+    is_placed: bool,
+    (q, v): (&[T], &[T]),
+) {
+    let child = &states[state];
+    let place = if is_placed { (E::Turn::recall(&child.turn), child.origin) } else { E::place(link, q) };
+    outwards_from::<T, E, N>(link, state, states, place, v);
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn outwards_from<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    state: usize,
+    states: &mut [LinkArticulation<T>],
+    (turn, origin): (E::Turn, [T; 3]),
+    v: &[T],
+) {
     let rate = take::<T, N>(v, link.v);
     let parent_w = states[link.parent].w;
     let from_parent = turn.to_child(parent_w);
@@ -214,8 +238,35 @@ fn inwards<T: Real, E: Elementary<T, N>, const N: usize>(
 ) -> T::Mask {
     let child = &states[state];
     let inertia = with_own(link, child);
-    let needed = child.needed;
-    let columns = E::columns(link, &inertia);
+    let (joint, is_positive) = articulate::<T, E, N>(link, &inertia, armature, gains, inverses);
+    let (moment, force) = felt::<T, E, N>(link, child, &inertia, &joint, tau, out);
+    if link.parent == 0 {
+        return is_positive;
+    }
+    let moved = to_parent::<T, E, N>(child, &inertia, &joint);
+    let parent = &mut states[link.parent];
+    parent.needed = (add(parent.needed.0, moment), add(parent.needed.1, force));
+    receive(parent, link.is_first_met, &moved);
+    is_positive
+}
+
+/// U, D⁻¹ and Y of a joint.
+pub(crate) struct Articulation<T, const N: usize> {
+    columns: [Pair<T>; N],
+    inverse: [[T; N]; N],
+    gain: [Pair<T>; N],
+}
+
+/// U, D⁻¹ and Y, which is U D⁻¹; and where D is positive.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn articulate<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    inertia: &Articulated<T>,
+    armature: &[f64],
+    gains: &mut [Pair<T>],
+    inverses: &mut [T],
+) -> (Articulation<T, N>, T::Mask) {
+    let columns = E::columns(link, inertia);
     let mut d = [[T::zero(); N]; N];
     let mut k = 0;
     while k < N {
@@ -224,22 +275,12 @@ fn inwards<T: Real, E: Elementary<T, N>, const N: usize>(
         k += 1;
     }
     let (inverse, is_positive) = inverse_of(d);
-    let felt = E::project(link, needed.0, needed.1);
-    let mut effort = [T::zero(); N];
-    k = 0;
-    while k < N {
-        effort[k] = tau[link.v + k] - felt[k];
-        k += 1;
-    }
-    // Y = U D⁻¹, v̇ = D⁻¹ u − …
     let mut gain = [([T::zero(); 3], [T::zero(); 3]); N];
     let mut i = 0;
     while i < N {
-        let mut rate = T::zero();
         let mut j = 0;
         while j < N {
             let entry = inverse[i][j];
-            rate += entry * effort[j];
             let mut c = 0;
             while c < 3 {
                 gain[i].0[c] += entry * columns[j].0[c];
@@ -250,38 +291,100 @@ fn inwards<T: Real, E: Elementary<T, N>, const N: usize>(
             j += 1;
         }
         gains[link.v + i] = gain[i];
+        i += 1;
+    }
+    (Articulation { columns, inverse, gain }, is_positive)
+}
+
+/// What [`articulate`] found for the same inertia.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn recall<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    inertia: &Articulated<T>,
+    gains: &[Pair<T>],
+    inverses: &[T],
+) -> Articulation<T, N> {
+    let mut inverse = [[T::zero(); N]; N];
+    let mut gain = [([T::zero(); 3], [T::zero(); 3]); N];
+    let mut i = 0;
+    while i < N {
+        let from = link.square + i * N;
+        inverse[i].copy_from_slice(&inverses[from..from + N]);
+        gain[i] = gains[link.v + i];
+        i += 1;
+    }
+    Articulation { columns: E::columns(link, inertia), inverse, gain }
+}
+
+/// Writes D⁻¹ u; what the parent feels: p + 𝕀 c + Y (u − Uᵀ c).
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn felt<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    child: &LinkArticulation<T>,
+    inertia: &Articulated<T>,
+    joint: &Articulation<T, N>,
+    tau: &[T],
+    out: &mut [T],
+) -> Pair<T> {
+    let needed = child.needed;
+    let felt = E::project(link, needed.0, needed.1);
+    let mut effort = [T::zero(); N];
+    let mut k = 0;
+    while k < N {
+        effort[k] = tau[link.v + k] - felt[k];
+        k += 1;
+    }
+    let mut i = 0;
+    while i < N {
+        let mut rate = T::zero();
+        let mut j = 0;
+        while j < N {
+            rate += joint.inverse[i][j] * effort[j];
+            j += 1;
+        }
         out[link.v + i] = rate;
         i += 1;
     }
-    if link.parent == 0 {
-        return is_positive;
-    }
-    // What the parent feels: p + 𝕀 c + Y (u − Uᵀ c), with 𝕀 before it loses Y Uᵀ.
+    // 𝕀 before it loses Y Uᵀ.
     let bias = child.bias;
     let by_bias = inertia.times(bias);
     let mut moment = add(needed.0, by_bias.0);
     let mut force = add(needed.1, by_bias.1);
-    let mut reduced = inertia;
     k = 0;
     while k < N {
-        let rest = effort[k] - dot(columns[k].0, bias.0) - dot(columns[k].1, bias.1);
+        let (columns, gain) = (joint.columns[k], joint.gain[k]);
+        let rest = effort[k] - dot(columns.0, bias.0) - dot(columns.1, bias.1);
         let mut c = 0;
         while c < 3 {
-            moment[c] += gain[k].0[c] * rest;
-            force[c] += gain[k].1[c] * rest;
+            moment[c] += gain.0[c] * rest;
+            force[c] += gain.1[c] * rest;
             c += 1;
         }
-        reduce(&mut reduced, gain[k], columns[k]);
         k += 1;
     }
-    let turn = E::Turn::recall(&child.turn);
-    let origin = child.origin;
-    let force = turn.to_parent(force);
-    let moment = add(turn.to_parent(moment), cross(origin, force));
-    let moved = moved_to_parent(turn, origin, &reduced);
-    let parent = &mut states[link.parent];
-    parent.needed = (add(parent.needed.0, moment), add(parent.needed.1, force));
-    if link.is_first_met {
+    wrench_to_parent(E::Turn::recall(&child.turn), child.origin, (moment, force))
+}
+
+/// 𝕀 − Y Uᵀ, as the parent feels it.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn to_parent<T: Real, E: Elementary<T, N>, const N: usize>(
+    child: &LinkArticulation<T>,
+    inertia: &Articulated<T>,
+    joint: &Articulation<T, N>,
+) -> Articulated<T> {
+    let mut reduced = *inertia;
+    let mut k = 0;
+    while k < N {
+        reduce(&mut reduced, joint.gain[k], joint.columns[k]);
+        k += 1;
+    }
+    moved_to_parent(E::Turn::recall(&child.turn), child.origin, &reduced)
+}
+
+/// Adds what a child adds to the inertia of its parent, to which the first one met writes.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn receive<T: Real>(parent: &mut LinkArticulation<T>, is_first_met: bool, moved: &Articulated<T>) {
+    if is_first_met {
         parent.j = moved.j;
         parent.h = moved.h;
         parent.m = moved.m;
@@ -290,11 +393,10 @@ fn inwards<T: Real, E: Elementary<T, N>, const N: usize>(
         parent.m = sum(parent.m, moved.m);
         parent.h = [add(parent.h[0], moved.h[0]), add(parent.h[1], moved.h[1]), add(parent.h[2], moved.h[2])];
     }
-    is_positive
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn accelerations<T: Real, E: Elementary<T, N>, const N: usize>(
+pub(crate) fn accelerations<T: Real, E: Elementary<T, N>, const N: usize>(
     link: &Link,
     state: usize,
     states: &mut [LinkArticulation<T>],

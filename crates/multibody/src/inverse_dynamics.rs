@@ -17,10 +17,10 @@ use piola_numerics::Real;
 
 use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_finite, check_length};
-use crate::link::{Elementary, Link, take};
+use crate::link::{Elementary, Link, Pair, take};
 use crate::spatial::{acceleration_gradient, add, cross, lit, lit_symmetric, scaled, sub, symmetric_times, times};
 use crate::tree::{BodyIndex, RigidTree};
-use crate::turn::Turning;
+use crate::turn::{Turning, wrench_to_parent};
 use crate::workspace::{LinkForces, TreeWorkspace};
 
 /// A force and a moment that act on a body from outside.
@@ -219,7 +219,32 @@ fn outwards<T: Real, E: Elementary<T, N>, const N: usize>(
     v: &[T],
     a: &[T],
 ) {
-    let (turn, origin) = E::place(link, q);
+    outwards_from::<T, E, N>(link, state, states, E::place(link, q), v, a);
+}
+
+/// Outwards again, where the joint may stand as it did.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn outwards_again<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    state: usize,
+    states: &mut [LinkForces<T>],
+    is_placed: bool,
+    (q, v, a): (&[T], &[T], &[T]),
+) {
+    let child = &states[state];
+    let place = if is_placed { (E::Turn::recall(&child.turn), child.origin) } else { E::place(link, q) };
+    outwards_from::<T, E, N>(link, state, states, place, v, a);
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn outwards_from<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    state: usize,
+    states: &mut [LinkForces<T>],
+    (turn, origin): (E::Turn, [T; 3]),
+    v: &[T],
+    a: &[T],
+) {
     let (rate, second_rate) = (take::<T, N>(v, link.v), take::<T, N>(a, link.v));
     let parent = &states[link.parent];
     let from_parent = turn.to_child(parent.w);
@@ -253,21 +278,28 @@ fn inwards<T: Real, E: Elementary<T, N>, const N: usize>(
     a: &[T],
     tau: &mut [T],
 ) {
-    let child = &states[state];
-    let (moment, force) = (child.moment, child.force);
-    let efforts = E::project(link, moment, force);
+    let (moment, force) = felt::<T, E, N>(link, &states[state], armature, a, tau);
+    if link.parent != 0 {
+        let parent = &mut states[link.parent];
+        parent.force = add(parent.force, force);
+        parent.moment = add(parent.moment, moment);
+    }
+}
+
+/// Writes the forces of a joint; what its parent feels.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn felt<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    child: &LinkForces<T>,
+    armature: &[f64],
+    a: &[T],
+    tau: &mut [T],
+) -> Pair<T> {
+    let efforts = E::project(link, child.moment, child.force);
     let mut k = 0;
     while k < N {
         tau[link.v + k] = efforts[k] + T::lit(armature[link.v + k]) * a[link.v + k];
         k += 1;
     }
-    if link.parent == 0 {
-        return;
-    }
-    let turn = E::Turn::recall(&child.turn);
-    let force = turn.to_parent(force);
-    let moment = add(turn.to_parent(moment), cross(child.origin, force));
-    let parent = &mut states[link.parent];
-    parent.force = add(parent.force, force);
-    parent.moment = add(parent.moment, moment);
+    wrench_to_parent(E::Turn::recall(&child.turn), child.origin, (child.moment, child.force))
 }

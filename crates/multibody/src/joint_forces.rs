@@ -111,7 +111,7 @@ impl RigidTree {
                     _ => q[link.q] - T::lit(joint.rest),
                 };
                 let rate = v[freedom];
-                let slip = (rate / T::lit(slip_rate)).tanh();
+                let slip = if 0.0 < joint.friction { (rate / T::lit(slip_rate)).tanh() } else { T::zero() };
                 let terms = Terms {
                     force: -(stiffness * stretch) - damping * rate - friction * slip,
                     spring_energy: T::lit(0.5) * stiffness * stretch * stretch,

@@ -52,7 +52,7 @@ pub use files::{FileInertias, Visual, VisualShape};
 pub use group::TreeGroup;
 pub use inverse_dynamics::AppliedWrench;
 pub use joint_forces::JointPowers;
-pub use kept::{KeptMassMatrix, UpdateCounts};
+pub use kept::{DynamicsCounts, KeptDynamics, KeptMassMatrix, UpdateCounts};
 pub use kinematics::{FrameAcceleration, FramePlace, FrameVelocity};
 pub use loops::{BodyPoint, ClosedMotion, ClosedTree, LoopClosure, LoopWorkspace};
 #[cfg(feature = "mjcf")]

@@ -91,7 +91,7 @@ pub(crate) struct Link {
 /// ```text
 /// moment = J α + H a        force = Hᵀ α + M a
 /// ```
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Articulated<T> {
     pub(crate) j: Symmetric<T>,
     pub(crate) h: Matrix<T>,

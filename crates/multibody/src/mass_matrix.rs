@@ -15,7 +15,7 @@ use piola_numerics::{Kernel, Real, dispatch};
 use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_length};
 use crate::link::{Articulated, Elementary, Link};
-use crate::space::{Runs, SUBSPACE, add_symmetric, pass_subspaces, reference};
+use crate::space::{Runs, SUBSPACE, add_symmetric, reference, subspaces};
 use crate::spatial::{add, cross, lit, lit_symmetric, scaled, skew, sub, times, translated_inertia};
 use crate::tree::RigidTree;
 use crate::turn::Turning;
@@ -84,21 +84,72 @@ impl<T: Real> Kernel for MassMatrix<'_, T> {
 pub(crate) fn fill<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace<T>, q: &[T], out: &mut [T]) {
     let TreeWorkspace { space, rows, composite, forces, .. } = work;
     for (i, link) in tree.links.iter().enumerate() {
-        for_kind!(link.kind, place::<T>(link, i + 1, q, space, forces));
+        for_kind!(link.kind, begin::<T>(link, i + 1, q, space, forces, rows, composite));
     }
-    pass_subspaces(tree, space, rows);
     if tree.links.iter().any(|link| link.run != 1) {
         out.fill(T::zero());
     }
-    for (link, composite) in tree.links.iter().zip(&mut composite[1..]) {
-        composite.moment = lit(link.moment);
-        composite.inertia = lit_symmetric(link.inertia);
-        composite.mass = T::lit(link.mass);
-    }
     let reference = reference(space);
     for (i, link) in tree.links.iter().enumerate().rev() {
-        for_kind!(link.kind, column::<T>(tree, link, i + 1, i + 1, space, composite, reference, rows, out));
-        for_kind!(link.kind, add_to_parent::<T>(link, i + 1, forces, composite));
+        for_kind!(link.kind, end::<T>(tree, link, i + 1, space, forces, composite, reference, rows, out));
+    }
+    mirror(tree.freedoms, out);
+}
+
+/// The place of a link, its freedoms about the reference point, its own inertia.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn begin<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    state: usize,
+    q: &[T],
+    space: &mut [LinkInSpace<T>],
+    forces: &mut [LinkForces<T>],
+    rows: &mut Rows<T>,
+    composite: &mut [Composite<T>],
+) {
+    place::<T, E, N>(link, state, q, space, forces);
+    // The first link, whose origin it is, is there.
+    let reference = reference(space);
+    subspaces::<T, E, N>(link, &space[state], reference, rows);
+    let own = &mut composite[state];
+    own.mass = T::lit(link.mass);
+    own.moment = lit(link.moment);
+    own.inertia = lit_symmetric(link.inertia);
+}
+
+/// The columns of a link, which adds its composite inertia to its parent's.
+#[cfg_attr(not(debug_assertions), inline(always))]
+#[expect(clippy::too_many_arguments, reason = "the parts of a workspace")]
+fn end<T: Real, E: Elementary<T, N>, const N: usize>(
+    tree: &RigidTree,
+    link: &Link,
+    state: usize,
+    space: &[LinkInSpace<T>],
+    forces: &[LinkForces<T>],
+    composite: &mut [Composite<T>],
+    reference: [T; 3],
+    rows: &Rows<T>,
+    out: &mut [T],
+) {
+    column::<T, E, N>(tree, link, state, state, space, composite, reference, rows, out);
+    add_to_parent::<T, E, N>(link, state, forces, composite);
+}
+
+/// Columns whose entries are copied to rows at once: a line of the cache of doubles.
+const BLOCK: usize = 8;
+
+/// Copies the entries (i, j), i < j, to (j, i): a block of columns at a time, so that each line of memory is written once.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn mirror<T: Real>(n: usize, out: &mut [T]) {
+    let mut first = 0;
+    while first < n {
+        let end = (first + BLOCK).min(n);
+        for i in 0..end {
+            for j in first.max(i + 1)..end {
+                out[i * n + j] = out[j * n + i];
+            }
+        }
+        first = end;
     }
 }
 
@@ -120,8 +171,7 @@ pub(crate) fn place<T: Real, E: Elementary<T, N>, const N: usize>(
     space[state].origin = place;
 }
 
-/// The columns of a link, and their rows: the entries of the freedoms from the link `from`, which is this one or nearer to the
-/// ground.
+/// The columns of a link: the entries of the freedoms from the link `from`, which is this one or nearer to the ground.
 #[cfg_attr(not(debug_assertions), inline(always))]
 #[expect(clippy::too_many_arguments, reason = "the parts of a workspace")]
 pub(crate) fn column<T: Real, E: Elementary<T, N>, const N: usize>(
@@ -157,12 +207,20 @@ pub(crate) fn column<T: Real, E: Elementary<T, N>, const N: usize>(
         if from == state {
             out[j * n + j] += T::lit(tree.armature[j]);
         }
+        k += 1;
+    }
+}
+
+/// Copies the columns of a link to their rows.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn rows_of_columns<T: Real>(tree: &RigidTree, link: &Link, from: usize, out: &mut [T]) {
+    let n = tree.freedoms;
+    for j in link.v..link.v + link.kind.freedoms() {
         for (first, end) in Runs::of(tree, from) {
             for i in first..end.min(j) {
                 out[i * n + j] = out[j * n + i];
             }
         }
-        k += 1;
     }
 }
 

@@ -93,28 +93,6 @@ impl RigidTree {
         }
         Ok(())
     }
-
-    /// Viscous damping and friction of the joints at velocities: τ = −d v − f tanh(v/ε), where ε > 0 is the speed below which
-    /// Coulomb's friction is smoothed.
-    ///
-    /// # Errors
-    /// [`MultibodyError::WrongLength`]; [`MultibodyError::NotFinite`] where ε is not positive.
-    pub fn friction_forces<T: Real>(&self, v: &[T], smoothing: f64, out: &mut [T]) -> Result<(), MultibodyError> {
-        check_length("v", self.freedoms, v.len())?;
-        check_length("out", self.freedoms, out.len())?;
-        let reciprocal = smoothing.recip();
-        if !(reciprocal.is_finite() && 0.0 < reciprocal) {
-            return Err(MultibodyError::NotFinite { quantity: "1/smoothing", index: 0, value: reciprocal });
-        }
-        for link in &self.links {
-            let joint = &self.joints[link.joint].joint;
-            for k in link.v..link.v + link.kind.freedoms() {
-                let friction = T::lit(joint.friction) * (v[k] * T::lit(reciprocal)).tanh();
-                out[k] = -(T::lit(joint.damping) * v[k] + friction);
-            }
-        }
-        Ok(())
-    }
 }
 
 impl<T: Real, F: FnMut(f64, &[T], &[T], &mut [T])> Field<T> for TreeMotion<'_, F, T> {

@@ -11,7 +11,7 @@ use crate::link::{Elementary, Link, take};
 use crate::space::{force_cross, momentum};
 use crate::spatial::{add, cross, lit, lit_symmetric, scaled, sub};
 use crate::tree::RigidTree;
-use crate::turn::Turning;
+use crate::turn::{Turning, wrench_to_parent};
 use crate::workspace::LinkForces;
 
 /// p = ∂L/∂v = M v and ∂L/∂q along the tangent space.
@@ -99,11 +99,7 @@ fn inwards<T: Real, E: Elementary<T, N>, const N: usize>(
         return;
     }
     let origin = child.origin;
-    let to_parent = |(moment, force): ([T; 3], [T; 3])| {
-        let force = turn.to_parent(force);
-        (add(turn.to_parent(moment), cross(origin, force)), force)
-    };
-    let (momentum, sum) = (to_parent(momentum), to_parent(sum));
+    let (momentum, sum) = (wrench_to_parent(turn, origin, momentum), wrench_to_parent(turn, origin, sum));
     let parent = &mut states[link.parent];
     parent.gradient[0] = add(parent.gradient[0], momentum.0);
     parent.gradient[1] = add(parent.gradient[1], momentum.1);

@@ -2,7 +2,7 @@
 
 use piola_numerics::Real;
 
-use crate::spatial::{ENTRY, Matrix, Symmetric, Vector, product, symmetric_times, times, transposed_times};
+use crate::spatial::{ENTRY, Matrix, Symmetric, Vector, add, cross, product, symmetric_times, times, transposed_times};
 
 /// A rotation R that takes components in the child's axes to components in the parent's.
 pub(crate) trait Turning<T: Real>: Copy {
@@ -20,6 +20,17 @@ pub(crate) trait Turning<T: Real>: Copy {
     fn keep(self, slot: &mut Matrix<T>);
     /// The turn that was kept.
     fn recall(slot: &Matrix<T>) -> Self;
+}
+
+/// A moment and a force about the child's origin, in the parent's axes about the parent's origin.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn wrench_to_parent<T: Real, R: Turning<T>>(
+    turn: R,
+    origin: Vector<T>,
+    (moment, force): (Vector<T>, Vector<T>),
+) -> (Vector<T>, Vector<T>) {
+    let force = turn.to_parent(force);
+    (add(turn.to_parent(moment), cross(origin, force)), force)
 }
 
 /// A turn about coordinate axis A: the angle's cosine and sine.

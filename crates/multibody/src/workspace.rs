@@ -139,7 +139,10 @@ pub struct TreeWorkspace<T> {
 
 /// Freedoms up to which M⁻¹ multiplies columns, n³ operations. Beyond, each column is solved along the tree: n × links, but in
 /// longer passes.
-pub(crate) const DENSE: usize = 12;
+pub(crate) const DENSE: usize = 32;
+
+/// The same for states in lanes, which fill the registers whatever the products.
+pub(crate) const DENSE_IN_LANES: usize = 12;
 
 /// Rows of a product that are summed at once.
 pub(crate) const FOUR: usize = 4;

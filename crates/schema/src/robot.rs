@@ -5,7 +5,7 @@ use piola_document::units::Dimension as D;
 
 use super::Absent::{Default, Optional, Required};
 use super::Kind::{Flag, Name, Path, Text};
-use super::Range::{Any, NotNegative};
+use super::Range::{Any, NotNegative, Positive};
 use super::{Kind, Word, quantity, word};
 
 const fn vector(dimension: D) -> Kind {
@@ -25,10 +25,18 @@ static SINGULAR: [Word; 2] = [
     word("stop", "the run ends before the first of them, as failed"),
 ];
 
+static JOINT_FORCES: [Word; 2] = [
+    word(
+        "file",
+        "springs, dampers and Coulomb friction act as the file gives them, unless a `[[drive]]` replaces them",
+    ),
+    word("none", "those of the file do not act; a `[[drive]]` may still give some"),
+];
+
 table! {
     /// A tree of rigid bodies from a URDF or MJCF file, with the span of time in `[time]`. `[integrator]` may have a
     /// `tolerance`, 1e-9 when absent: relative, and absolute in m, rad, m/s and rad/s. Limits of joints are not enforced: the
-    /// summary names the joints that leave them. Coulomb friction of joints is not applied, and motors of the file are not driven.
+    /// summary names the joints that leave them. Motors of the file are not driven.
     pub(super) static ROBOT = "robot" {
         /// The URDF or MJCF file, relative to the scene. MJCF is what has `mujoco` as its first element.
         file: Path, Required;
@@ -46,6 +54,11 @@ table! {
         velocity: vector(D::SPEED), Default("[0.0, 0.0, 0.0]");
         /// Angular velocity of a free root at the start, about its own axes.
         angular_velocity: vector(D::ANGULAR_RATE), Default("[0.0, 0.0, 0.0]");
+        /// Whether the springs, dampers and friction that the file gives its joints act. Reflected inertias (`armature`) always do.
+        joint_forces: Kind::Choice(&JOINT_FORCES), Default("\"file\"");
+        /// Rate w of a joint, rad/s or m/s, below which Coulomb friction f is smoothed: −f tanh(v/w). A joint that ought to stick
+        /// creeps, slower than w while its load is below 0.76 f. A smaller rate takes smaller steps.
+        slip_rate: quantity(D::NONE, Positive), Default("0.01");
         /// Positions in which closures depend on each other.
         singular_positions: Kind::Choice(&SINGULAR), Default("\"pass\"");
         /// Whether the motion is written as `motion.gltf`, for viewers of glTF 2.0.
@@ -55,7 +68,7 @@ table! {
 
 table! {
     /// A joint of the file: where it starts and what drives it. Joints without a table start where the file places them
-    /// (URDF: at zero), at rest, with the damping and springs of the file. Numbers without a unit are in SI units.
+    /// (URDF: at zero), at rest, with the damping, friction and springs of the file. Numbers without a unit are in SI units.
     pub(super) static DRIVE = "drive" {
         /// The joint's name in the file.
         name: Text, Required;
@@ -73,6 +86,8 @@ table! {
         force: quantity(D::FORCE, Any), Optional;
         /// Viscous damping, N m s or N s/m; that of the file when absent.
         damping: quantity(D::NONE, NotNegative), Optional;
+        /// Coulomb friction, N m or N; that of the file when absent.
+        friction: quantity(D::NONE, NotNegative), Optional;
         /// Stiffness of a spring, N m/rad or N/m; that of the file when absent.
         stiffness: quantity(D::NONE, NotNegative), Optional;
         /// Coordinate, rad or m, at which the spring is at rest; that of the file when absent.

@@ -4,8 +4,8 @@
 //! ∂v̇/∂q = −M⁻¹ ∂τ/∂q        ∂v̇/∂v = −M⁻¹ ∂τ/∂v        ∂v̇/∂τ = M⁻¹        ∂τ of inverse dynamics at v̇
 //! ```
 //!
-//! Each column is solved along the tree by the articulated inertias of the forward dynamics. Up to 12 freedoms M⁻¹ alone is found
-//! so, and multiplies the other columns.
+//! Each column is solved along the tree by the articulated inertias of the forward dynamics. Up to 32 freedoms (12 in lanes) M⁻¹ alone is
+//! found so, and multiplies the other columns.
 
 use piola_numerics::{Kernel, Mask, Real, dispatch};
 
@@ -18,7 +18,7 @@ use crate::link::{Elementary, Link};
 use crate::spatial::{add, times};
 use crate::tree::RigidTree;
 use crate::turn::Turning;
-use crate::workspace::{DENSE, FOUR, LinkArticulation, LinkInSpace, TreeWorkspace};
+use crate::workspace::{DENSE, DENSE_IN_LANES, FOUR, LinkArticulation, LinkInSpace, TreeWorkspace};
 
 /// What [`RigidTree::forward_dynamics_derivatives`] writes: v̇ and its derivatives.
 ///
@@ -153,7 +153,7 @@ pub(crate) fn differentiate_accelerations<T: Real>(
         by_tau[j * n + j] = T::one();
     }
     gains_in_space(tree, work);
-    if n <= DENSE {
+    if n <= if T::LANES == 1 { DENSE } else { DENSE_IN_LANES } {
         solve_columns(tree, work, &mut [&mut by_tau[..]], &[1.0], n);
         multiply_columns(work, by_tau, [by_q, by_v], n);
     } else {

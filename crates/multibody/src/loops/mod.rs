@@ -96,6 +96,22 @@ impl ClosedTree {
         self.tree.set_gravity(gravity)
     }
 
+    /// Gives a joint of the tree other dampers and friction.
+    ///
+    /// # Errors
+    /// As [`RigidTree::set_friction`].
+    pub fn set_friction(&mut self, joint: usize, damping: f64, friction: f64) -> Result<(), MultibodyError> {
+        self.tree.set_friction(joint, damping, friction)
+    }
+
+    /// Gives a joint of the tree another spring.
+    ///
+    /// # Errors
+    /// As [`RigidTree::set_spring`].
+    pub fn set_spring(&mut self, joint: usize, stiffness: f64, rest: f64) -> Result<(), MultibodyError> {
+        self.tree.set_spring(joint, stiffness, rest)
+    }
+
     /// The conditions of all closures, m.
     #[must_use]
     pub const fn conditions(&self) -> usize {

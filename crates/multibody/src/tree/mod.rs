@@ -171,6 +171,37 @@ impl RigidTree {
         Ok(())
     }
 
+    /// Gives a joint other dampers and friction (N m s or N s/m; N m or N), for each freedom: see
+    /// [`joint_forces`](Self::joint_forces). `joint` is its index in [`joints`](Self::joints).
+    ///
+    /// # Errors
+    /// [`MultibodyError::NoSuchIndex`]; [`MultibodyError::InvalidJointData`] for negative numbers and for those that are not finite.
+    pub fn set_friction(&mut self, joint: usize, damping: f64, friction: f64) -> Result<(), MultibodyError> {
+        self.change_joint(joint, |joint| joint.with_friction(damping, friction))
+    }
+
+    /// Gives a joint another spring, for each freedom of a joint without a quaternion: its stiffness (N m/rad or N/m) and the
+    /// coordinate at which it is at rest (rad or m). `joint` is its index in [`joints`](Self::joints).
+    ///
+    /// # Errors
+    /// As [`set_friction`](Self::set_friction).
+    pub fn set_spring(&mut self, joint: usize, stiffness: f64, rest: f64) -> Result<(), MultibodyError> {
+        self.change_joint(joint, |joint| joint.with_spring(stiffness, rest))
+    }
+
+    fn change_joint(
+        &mut self,
+        index: usize,
+        change: impl FnOnce(TreeJoint) -> TreeJoint,
+    ) -> Result<(), MultibodyError> {
+        let count = self.joints.len();
+        let place = self.joints.get_mut(index).ok_or(MultibodyError::NoSuchIndex { what: "joint", index, count })?;
+        let changed = change(place.joint.clone());
+        changed.check()?;
+        place.joint = changed;
+        Ok(())
+    }
+
     /// The body of a name.
     ///
     /// # Errors

@@ -19,7 +19,8 @@ use crate::link::Kind;
 /// assert_eq!((plan.links, plan.merged.as_slice()), (1, ["weld".to_owned()].as_slice()));
 /// assert_eq!(
 ///     plan.to_string(),
-///     "2 bodies in 1 link; merged: weld; folded: 1 of 1 turn about a coordinate axis, without products of matrices"
+///     "2 bodies in 1 link; merged: weld; folded: 1 of 1 turn about a coordinate axis, without products of matrices; \
+///      a joint that changes alone moves 1.0 of 1 link in the mean: KeptDynamics and KeptMassMatrix keep the rest"
 /// );
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -36,17 +37,28 @@ pub struct TreePlan {
     pub turns: usize,
     /// Those of them about a coordinate axis of their link: they multiply no matrices.
     pub aligned: usize,
+    /// The links that each joint moves, its own among them, summed over the links. A joint that changes alone moves
+    /// `moved / links` of them in the mean: the rest is what [`KeptDynamics`](crate::KeptDynamics) and
+    /// [`KeptMassMatrix`](crate::KeptMassMatrix) keep. It is half the links of a chain, and few of a tree with many branches.
+    pub moved: usize,
 }
 
 impl RigidTree {
-    /// What was merged and folded when the tree was built. How much of an evaluation is skipped is counted by
-    /// [`KeptMassMatrix::counts`](crate::KeptMassMatrix::counts).
+    /// What was merged and folded when the tree was built, and how many links a joint moves. How much of an evaluation is skipped
+    /// is counted by [`KeptMassMatrix::counts`](crate::KeptMassMatrix::counts) and
+    /// [`KeptDynamics::counts`](crate::KeptDynamics::counts).
     #[must_use]
     pub fn plan(&self) -> TreePlan {
         let fixed = self.joints.iter().filter(|place| place.joint.kind == JointKind::Fixed);
         let count = |kinds: &[Kind]| self.links.iter().filter(|link| kinds.contains(&link.kind)).count();
         let aligned = count(&[Kind::RevoluteX, Kind::RevoluteY, Kind::RevoluteZ]);
+        // A link is moved by all joints from the ground to it.
+        let mut depths = vec![0; self.links.len() + 1];
+        for (i, link) in self.links.iter().enumerate() {
+            depths[i + 1] = depths[link.parent] + 1;
+        }
         TreePlan {
+            moved: depths.iter().sum(),
             bodies: self.bodies(),
             links: self.links(),
             merged: fixed.map(|place| place.joint.name.clone()).collect(),
@@ -66,6 +78,10 @@ impl fmt::Display for TreePlan {
             names => write!(f, "{}", names.join(", "))?,
         }
         let turns = plural(self.turns, "turn", "turns");
-        write!(f, "; folded: {} of {turns} about a coordinate axis, without products of matrices", self.aligned)
+        write!(f, "; folded: {} of {turns} about a coordinate axis, without products of matrices", self.aligned)?;
+        let mean = self.moved as f64 / self.links.max(1) as f64;
+        let links = plural(self.links, "link", "links");
+        let keeping = "KeptDynamics and KeptMassMatrix keep the rest";
+        write!(f, "; a joint that changes alone moves {mean:.1} of {links} in the mean: {keeping}")
     }
 }

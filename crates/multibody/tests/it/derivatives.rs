@@ -4,7 +4,7 @@ use piola_multibody::{AccelerationDerivatives, RigidTree};
 use piola_numerics::Dual;
 use piola_testkit::{Tol, assert_close};
 
-use crate::trees::{State, branched, chain, mixed, state_of, ur5};
+use crate::trees::{State, branched, chain, gripper_arm, humanoid, mixed, quadruped, state_of, ur5};
 
 const ROUNDING: Tol = Tol::stated(1e-11, "the project's bound on derivatives");
 
@@ -24,8 +24,16 @@ fn seeded(tree: &RigidTree, state: &State, by: usize, j: usize) -> [Vec<Dual<f64
     [q, v, a]
 }
 
-fn trees() -> [(&'static str, RigidTree); 4] {
-    [("ur5", ur5()), ("chain", chain(9)), ("branched", branched()), ("mixed", mixed())]
+fn trees() -> [(&'static str, RigidTree); 7] {
+    [
+        ("ur5", ur5()),
+        ("chain", chain(9)),
+        ("branched", branched()),
+        ("mixed", mixed()),
+        ("arm with gripper", gripper_arm()),
+        ("quadruped", quadruped()),
+        ("humanoid", humanoid()),
+    ]
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod digits;
 mod golden;
 mod joint_forces;
 mod kept;
+mod kept_dynamics;
 mod laws;
 mod loops;
 mod mechanisms;

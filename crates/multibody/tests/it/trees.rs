@@ -95,6 +95,72 @@ pub(crate) fn ur5() -> RigidTree {
     builder.build().unwrap()
 }
 
+/// A tree of equal rods: of each its parent, counted from 1 with the ground as 0, and its joint. `x`, `y`, `z` turn about an axis,
+/// `s` slides along y, `f` is free.
+fn robot(joints: &[(usize, char)]) -> RigidTree {
+    let mut builder = RigidTree::builder();
+    let mut bodies = vec![BodyIndex::GROUND];
+    for (i, &(parent, letter)) in joints.iter().enumerate() {
+        let kind = match letter {
+            'x' => JointKind::Revolute { axis: [1.0, 0.0, 0.0] },
+            'y' => JointKind::Revolute { axis: [0.0, 1.0, 0.0] },
+            'z' => JointKind::Revolute { axis: [0.0, 0.0, 1.0] },
+            's' => JointKind::Prismatic { axis: [0.0, 1.0, 0.0] },
+            _ => JointKind::Free,
+        };
+        let joint = TreeJoint::new(format!("joint {i}"), kind);
+        let joint = if parent == 0 { joint } else { joint.at([0.1, 0.05, -0.3]) };
+        bodies.push(builder.attach(bodies[parent], joint, format!("rod {i}"), rod()).unwrap());
+    }
+    builder.build().unwrap()
+}
+
+/// A limb: joints in series.
+fn limb(joints: &mut Vec<(usize, char)>, parent: usize, letters: &str) -> usize {
+    letters.chars().fold(parent, |parent, letter| {
+        joints.push((parent, letter));
+        joints.len()
+    })
+}
+
+/// An arm of seven joints with a gripper of two fingers that slide: 9 freedoms.
+pub(crate) fn gripper_arm() -> RigidTree {
+    let mut joints = Vec::new();
+    let hand = limb(&mut joints, 0, "zyzyzyz");
+    limb(&mut joints, hand, "s");
+    limb(&mut joints, hand, "s");
+    robot(&joints)
+}
+
+/// A free trunk with four legs of three joints: 18 freedoms.
+pub(crate) fn quadruped() -> RigidTree {
+    let mut joints = Vec::new();
+    let trunk = limb(&mut joints, 0, "f");
+    for _ in 0..4 {
+        limb(&mut joints, trunk, "xyy");
+    }
+    robot(&joints)
+}
+
+/// A free pelvis with two legs of six joints, a torso of two, a head of two, two arms of seven, on each a hand of three fingers with
+/// seven joints: 50 freedoms.
+pub(crate) fn humanoid() -> RigidTree {
+    let mut joints = Vec::new();
+    let pelvis = limb(&mut joints, 0, "f");
+    for _ in 0..2 {
+        limb(&mut joints, pelvis, "zxyyyx");
+    }
+    let torso = limb(&mut joints, pelvis, "zy");
+    limb(&mut joints, torso, "zy");
+    for _ in 0..2 {
+        let hand = limb(&mut joints, torso, "yxzyzyx");
+        limb(&mut joints, hand, "yy");
+        limb(&mut joints, hand, "yy");
+        limb(&mut joints, hand, "zyy");
+    }
+    robot(&joints)
+}
+
 /// A state of a tree: configuration, velocities, accelerations (or forces).
 pub(crate) struct State {
     pub(crate) q: Vec<f64>,

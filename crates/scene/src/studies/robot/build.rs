@@ -61,6 +61,10 @@ impl Builder<'_> {
                 }
             }
         }
+        let has_joint_forces = table.text("joint_forces")? == "file";
+        if !has_joint_forces {
+            self.without_joint_forces(table, &mut closed);
+        }
         let mut drives = undriven(&tree);
         self.unique_names(&[scene.records("drive"), scene.records("closure")]);
         for record in scene.records("drive") {
@@ -83,8 +87,8 @@ impl Builder<'_> {
             self.sound(record, key, placed, "angles at the start near those at which the loops close")?;
         }
         let names = names(&tree);
-        // Time, coordinates, rates, energies and work at each instant.
-        let columns = 5 + names.iter().map(Vec::len).sum::<usize>();
+        // Time, coordinates, rates, energies and works at each instant.
+        let columns = 7 + names.iter().map(Vec::len).sum::<usize>();
         if MOST_NUMBERS / columns < samples as usize {
             let place = scene.record("output").map_or(scene.place.clone(), |table| table.place_of("samples"));
             self.wrong(
@@ -92,7 +96,6 @@ impl Builder<'_> {
                     .valid(format!("samples = at most {}", MOST_NUMBERS / columns)),
             );
         }
-        let frictions = tree.joints().iter().filter(|place| 0.0 < place.joint.friction);
         Some(RobotStudy {
             file,
             visuals: robot.visuals,
@@ -105,7 +108,8 @@ impl Builder<'_> {
             start: (q, v),
             drives,
             names,
-            frictions: frictions.map(|place| place.joint.name.clone()).collect(),
+            slip_rate: table.number("slip_rate")?,
+            has_joint_forces,
             motors: robot.motors.into_iter().map(|motor| motor.joint).collect(),
             closed,
         })
@@ -175,10 +179,13 @@ impl Builder<'_> {
         }
         let drive = &mut drives[first_freedom];
         drive.effort = either(["torque", "force"]).unwrap_or(0.0);
-        let given = [("damping", &mut drive.damping), ("stiffness", &mut drive.stiffness), ("rest", &mut drive.rest)];
-        for (key, value) in given {
-            *value = if record.has(key) { record.number(key)? } else { *value };
-        }
+        let number = |key: &str, of_tree: f64| record.number(key).unwrap_or(of_tree);
+        let current = closed.tree().joints()[index].joint.clone();
+        let friction =
+            closed.set_friction(index, number("damping", current.damping), number("friction", current.friction));
+        self.sound(record, "damping", friction, "numbers that are zero or more");
+        let spring = closed.set_spring(index, number("stiffness", current.stiffness), number("rest", current.rest));
+        self.sound(record, "stiffness", spring, "a number that is zero or more");
         if record.flag("locked")? {
             if 0.0 < v[first_freedom].abs() {
                 let key = if record.has("rate") { "rate" } else { "speed" };
@@ -192,6 +199,15 @@ impl Builder<'_> {
             self.sound(record, "locked", locked, "a joint with one coordinate")?;
         }
         Some(())
+    }
+
+    /// Takes springs, dampers and friction of the file away.
+    fn without_joint_forces(&mut self, table: &Record, closed: &mut ClosedTree) {
+        for index in 0..closed.tree().joints().len() {
+            let rest = closed.tree().joints()[index].joint.rest;
+            let taken = closed.set_friction(index, 0.0, 0.0).and_then(|()| closed.set_spring(index, 0.0, rest));
+            self.sound(table, "joint_forces", taken, "file or none");
+        }
     }
 
     fn closure(&mut self, record: &Record, closed: &mut ClosedTree) -> Option<()> {
@@ -241,7 +257,7 @@ impl Builder<'_> {
     }
 }
 
-/// The freedoms as the file drives them: with its dampers and springs.
+/// The freedoms without torques or forces.
 fn undriven(tree: &piola_multibody::RigidTree) -> Vec<JointDrive> {
     let mut drives = Vec::new();
     for place in tree.joints() {
@@ -249,9 +265,6 @@ fn undriven(tree: &piola_multibody::RigidTree) -> Vec<JointDrive> {
         drives.extend((0..place.joint.kind.freedoms()).map(|k| JointDrive {
             coordinate: single.then_some(place.first_coordinate + k),
             effort: 0.0,
-            damping: place.joint.damping,
-            stiffness: place.joint.stiffness,
-            rest: place.joint.rest,
             limits: place.joint.limits,
         }));
     }

@@ -26,7 +26,9 @@ pub(super) fn energies(found: &RobotMotion, title: &str) -> String {
         let points = found.samples.iter().map(|sample| (sample.t, sample.energies[index]));
         panel = panel.curve(name, index, points);
     }
-    panel = panel.curve("work of torques and damping", 3, found.samples.iter().map(|sample| (sample.t, sample.work)));
+    let works = |sample: &super::RobotSample| sample.works.iter().sum::<f64>();
+    let name = "work of torques, damping and friction";
+    panel = panel.curve(name, 3, found.samples.iter().map(|sample| (sample.t, works(sample))));
     let total = |sample: &super::RobotSample| sample.energies.iter().sum::<f64>();
     panel = panel.dashed("sum of energies", 4, found.samples.iter().map(|sample| (sample.t, total(sample))));
     figure((980, 620), title, &|area| panel.draw(area))

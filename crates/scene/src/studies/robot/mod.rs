@@ -10,7 +10,7 @@ mod sample;
 
 use std::path::PathBuf;
 
-use piola_multibody::{ClosedTree, Visual};
+use piola_multibody::{ClosedTree, TreeJoint, Visual};
 
 use super::StudyPlan;
 use crate::model::TimeSpan;
@@ -58,36 +58,23 @@ pub struct RobotStudy {
     pub drives: Vec<JointDrive>,
     /// The names of the coordinates, and of the rates.
     pub names: [Vec<String>; 2],
-    /// Coulomb friction that the file gives and nothing applies: the joints.
-    pub frictions: Vec<String>,
+    /// Rate below which Coulomb friction is smoothed, rad/s or m/s.
+    pub slip_rate: f64,
+    /// Whether the springs, dampers and friction of the file act.
+    pub has_joint_forces: bool,
     /// The joints that have a motor in the file.
     pub motors: Vec<String>,
 }
 
-/// What drives a freedom: τ = `effort` − `damping` v − `stiffness` (q − `rest`).
+/// What drives a freedom, besides the springs, dampers and friction of the tree's joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointDrive {
     /// The coordinate of a freedom that is the rate of one.
     pub coordinate: Option<usize>,
     /// Constant torque or force, N m or N.
     pub effort: f64,
-    /// Damping, N m s or N s/m.
-    pub damping: f64,
-    /// Stiffness, N m/rad or N/m.
-    pub stiffness: f64,
-    /// Coordinate of the spring at rest.
-    pub rest: f64,
     /// Lower and upper limit of the coordinate.
     pub limits: [f64; 2],
-}
-
-impl JointDrive {
-    /// The torque without that of the spring, and the torque and energy of the spring.
-    fn efforts(&self, q: &[f64], v: f64) -> [f64; 3] {
-        let stretch = self.coordinate.map_or(0.0, |coordinate| q[coordinate] - self.rest);
-        let spring = -self.stiffness * stretch;
-        [self.effort - self.damping * v, spring, -0.5 * spring * stretch]
-    }
 }
 
 impl RobotStudy {
@@ -123,11 +110,12 @@ impl RobotStudy {
             let how = if self.stops { "the run stops before them" } else { "passed on the branch of the velocity" };
             plan.compute("singular positions", how);
         }
-        plan.compute("energy balance", "energies less the work of torques and damping, at every recorded instant");
+        self.plan_joint_forces(plan);
+        plan.compute(
+            "energy balance",
+            "energies less the work of torques, damping and friction, at every recorded instant",
+        );
         plan.skip("limits of joints", "not enforced: the summary names the joints that leave them");
-        if !self.frictions.is_empty() {
-            plan.skip("Coulomb friction", format!("not applied: {}", self.frictions.join(", ")));
-        }
         if !self.motors.is_empty() {
             let motors = self.motors.join(", ");
             plan.skip("motors of the file", format!("not driven, [[drive]] sets a torque or force: {motors}"));
@@ -139,5 +127,31 @@ impl RobotStudy {
             plan.skip("animation", "robot.animation = false");
         }
         (&["coordinates.csv", "energies.csv"], &["coordinates.svg", "energies.svg"])
+    }
+
+    /// Which springs, dampers and friction act.
+    fn plan_joint_forces(&self, plan: &mut StudyPlan) {
+        let names = |has: fn(&TreeJoint) -> bool| -> Vec<&str> {
+            let joints = self.closed.tree().joints().iter().map(|place| &place.joint);
+            joints.filter(|joint| has(joint)).map(|joint| joint.name.as_str()).collect()
+        };
+        let (springs, dampers) = (names(|joint| 0.0 < joint.stiffness), names(|joint| 0.0 < joint.damping));
+        let frictions = names(|joint| 0.0 < joint.friction);
+        let slip = format!("friction, smoothed below {}", words::number(self.slip_rate));
+        let kinds = [("springs".to_string(), springs), ("dampers".to_string(), dampers), (slip, frictions)];
+        let acting = kinds.iter().filter(|(_, names)| !names.is_empty());
+        let acting: Vec<String> = acting.map(|(kind, names)| format!("{kind}: {}", names.join(", "))).collect();
+        if !acting.is_empty() {
+            plan.compute("forces of joints", acting.join("; "));
+        }
+        let reflected = names(|joint| 0.0 < joint.armature);
+        if !reflected.is_empty() {
+            plan.compute("reflected inertias", reflected.join(", "));
+        }
+        if !self.has_joint_forces {
+            plan.skip("springs, dampers and friction of the file", "robot.joint_forces = \"none\"");
+        } else if acting.is_empty() {
+            plan.skip("forces of joints", "neither the file nor a [[drive]] gives springs, dampers or friction");
+        }
     }
 }

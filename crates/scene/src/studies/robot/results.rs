@@ -59,10 +59,15 @@ impl RobotMotion {
     }
 
     fn energies(&self) -> String {
-        let mut text = String::from("time_s,kinetic_J,potential_J,springs_J,work_J\n");
+        let mut text = String::from(
+            "time_s,kinetic_J,potential_J,springs_J,work_of_torques_J,work_of_damping_J,work_of_friction_J\n",
+        );
         for sample in &self.samples {
-            let [kinetic, potential, springs] = sample.energies;
-            let _ = writeln!(text, "{:?},{kinetic:?},{potential:?},{springs:?},{:?}", sample.t, sample.work);
+            let _ = write!(text, "{:?}", sample.t);
+            for value in sample.energies.iter().chain(&sample.works) {
+                let _ = write!(text, ",{value:?}");
+            }
+            text.push('\n');
         }
         text
     }

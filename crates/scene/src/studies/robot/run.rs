@@ -10,7 +10,7 @@ use piola_simulation::motion::CheckpointKeeper as _;
 
 use super::RobotStudy;
 use super::checkpoint::{PIECE, Renewable, RobotCheckpoint};
-use super::sample::RobotSample;
+use super::sample::{RobotSample, WORKS};
 use crate::run::{Checkpoints, Outcome};
 use crate::studies::observer::Observer;
 
@@ -33,25 +33,27 @@ pub struct RobotMotion {
     pub names: Vec<String>,
 }
 
-/// A motion with the work of its torques as one number more.
-struct WithWork<'a, F> {
+/// A motion with the works of its forces as numbers more.
+struct WithWorks<'a, F> {
     motion: F,
     robot: &'a RobotStudy,
     /// Whether the motion may begin anew.
     apart: Rc<Cell<bool>>,
 }
 
-impl<F: Field<Error = MultibodyError> + Renewable> Field for WithWork<'_, F> {
+impl<F: Field<Error = MultibodyError> + Renewable> Field for WithWorks<'_, F> {
     type Error = MultibodyError;
     fn dimension(&self) -> usize {
-        self.motion.dimension() + 1
+        self.motion.dimension() + WORKS
     }
     fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), MultibodyError> {
         let n = self.motion.dimension();
         self.motion.rate(t, &y[..n], &mut rate[..n])?;
         self.apart.set(self.motion.is_apart());
         let (q, v) = y[..n].split_at(self.robot.closed.tree().coordinates());
-        rate[n] = self.robot.drives.iter().zip(v).map(|(drive, &v)| drive.efforts(q, v)[0] * v).sum();
+        let powers = self.robot.closed.tree().joint_powers(q, v, self.robot.slip_rate)?;
+        let driven = self.robot.drives.iter().zip(v).map(|(drive, &v)| drive.effort * v).sum();
+        rate[n..].copy_from_slice(&[driven, powers.damping_power, powers.friction_power]);
         Ok(())
     }
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), MultibodyError> {
@@ -61,16 +63,19 @@ impl<F: Field<Error = MultibodyError> + Renewable> Field for WithWork<'_, F> {
     fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
         let n = self.motion.dimension();
         self.motion.magnitudes(&y[..n], &mut magnitudes[..n]);
-        // The work follows the motion: its error decides on no step.
-        magnitudes[n] = f64::INFINITY;
+        // Works follow the motion: their errors decide on no step.
+        magnitudes[n..].fill(f64::INFINITY);
     }
 }
 
 impl RobotStudy {
     fn drive(&self, q: &[f64], v: &[f64], tau: &mut [f64]) {
-        for ((tau, drive), &v) in tau.iter_mut().zip(&self.drives).zip(v) {
-            let [effort, spring, _] = drive.efforts(q, v);
-            *tau = effort + spring;
+        // A state that is refused here is refused by the dynamics, with its reason.
+        if self.closed.tree().joint_forces(q, v, self.slip_rate, tau).is_err() {
+            tau.fill(f64::NAN);
+        }
+        for (tau, drive) in tau.iter_mut().zip(&self.drives) {
+            *tau += drive.effort;
         }
     }
 
@@ -105,10 +110,10 @@ impl RobotStudy {
         (from, mut keeper): (Option<RobotCheckpoint>, Option<&mut Checkpoints>),
         observer: &mut Observer<'_>,
     ) -> Result<Ending, String> {
-        let mut motion = WithWork { motion, robot: self, apart: Rc::new(Cell::new(true)) };
+        let mut motion = WithWorks { motion, robot: self, apart: Rc::new(Cell::new(true)) };
         let (start, end) = (self.time.start, self.time.end);
         found.reached = start;
-        let mut y = [&self.start.0[..], &self.start.1, &[0.0]].concat();
+        let mut y = [&self.start.0[..], &self.start.1, &[0.0; WORKS]].concat();
         let in_words = |error: IntegratorsError| error.to_string();
         let mut state = State::new(start, y.clone()).map_err(in_words)?;
         let tolerance = Tolerance::new(self.tolerance, self.tolerance).map_err(in_words)?;
@@ -190,13 +195,13 @@ impl RobotStudy {
         tree.normalise(q)?;
         let (v, done) = rest.split_at(tree.freedoms());
         let energies = tree.tree_energies(work, q, v)?;
-        let springs = self.drives.iter().zip(v).map(|(drive, &v)| drive.efforts(q, v)[2]).sum();
+        let springs = tree.joint_powers(q, v, self.slip_rate)?.spring_energy;
         found.samples.push(RobotSample {
             t,
             q: q.to_vec(),
             v: v.to_vec(),
             energies: [energies.kinetic, energies.potential, springs],
-            work: done[0],
+            works: [done[0], done[1], done[2]],
         });
         Ok(())
     }
@@ -208,7 +213,7 @@ impl RobotMotion {
         let (mut change, mut size) = (0.0_f64, 0.0_f64);
         for sample in &self.samples {
             change = change.max((sample.balance() - first).abs());
-            size = sample.energies.iter().chain([&sample.work]).fold(size, |size, energy| size.max(energy.abs()));
+            size = sample.energies.iter().chain(&sample.works).fold(size, |size, energy| size.max(energy.abs()));
         }
         self.energy_error = if 0.0 < size { change / size } else { 0.0 };
         for drive in &robot.drives {

@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Works that a run integrates.
+pub(super) const WORKS: usize = 3;
+
 /// A recorded instant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -14,13 +17,13 @@ pub struct RobotSample {
     pub v: Vec<f64>,
     /// Kinetic energy, potential energy in gravity, energy of springs, J.
     pub energies: [f64; 3],
-    /// Work of torques, forces and damping since the start, J.
-    pub work: f64,
+    /// Work of torques and forces, of damping, of Coulomb friction since the start, J.
+    pub works: [f64; WORKS],
 }
 
 impl RobotSample {
     /// What the balance of energy compares: it is constant.
     pub(super) fn balance(&self) -> f64 {
-        self.energies.iter().sum::<f64>() - self.work
+        self.energies.iter().sum::<f64>() - self.works.iter().sum::<f64>()
     }
 }

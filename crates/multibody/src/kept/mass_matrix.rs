@@ -12,7 +12,7 @@ use piola_numerics::Real;
 
 use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_finite, check_length};
-use crate::mass_matrix::{add_to_parent, column, place};
+use crate::mass_matrix::{add_to_parent, column, place, rows_of_columns};
 use crate::space::{reference, subspaces};
 use crate::spatial::{lit, lit_symmetric};
 use crate::tree::RigidTree;
@@ -200,6 +200,7 @@ impl<'a, T: Real> KeptMassMatrix<'a, T> {
             };
             if from != 0 {
                 for_kind!(link.kind, column::<T>(tree, link, i + 1, from, space, composite, reference, rows, entries));
+                rows_of_columns(tree, link, from, entries);
                 counts.columns += 1;
             }
             if is_reshaped[link.parent] {
