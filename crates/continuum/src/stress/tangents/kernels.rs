@@ -89,3 +89,45 @@ pub fn material_tangent<T: Real>(inverse: Rows<T>, stress: &Symmetric<T>, tangen
     }
     result
 }
+
+/// c/J of ∂P/∂F: `F_jA F_lB A_iAkB/J − δ_ik T_jl` at i ≤ j, the mean over the exchange of k and l. Written out, as [`half_contracted`].
+#[cfg_attr(not(debug_assertions), inline(always))]
+#[must_use]
+pub fn spatial_tangent<T: Real>(f: Rows<T>, volume: T, stress: &Symmetric<T>, tangent: &[[T; 9]; 9]) -> Slots<T> {
+    // `A_iAkB F_lB/J`: rows (i, A), columns the pairs (k, l).
+    let (scale, half) = (volume.recip(), T::lit(0.5));
+    let scaled = |row: [T; 3]| [row[0] * scale, row[1] * scale, row[2] * scale];
+    let g = [scaled(f[0]), scaled(f[1]), scaled(f[2])];
+    let contracted = |row: usize| {
+        let a = &tangent[row];
+        let at = |k: usize, l: usize| g[l][0] * a[3 * k] + g[l][1] * a[3 * k + 1] + g[l][2] * a[3 * k + 2];
+        let mean = |k: usize, l: usize| half * (at(k, l) + at(l, k));
+        [at(0, 0), at(1, 1), at(2, 2), mean(0, 1), mean(1, 2), mean(0, 2)]
+    };
+    let block = |i: usize| [contracted(3 * i), contracted(3 * i + 1), contracted(3 * i + 2)];
+    let blocks = [block(0), block(1), block(2)];
+    let whole = |i: usize, j: usize| half_contracted(f[j], [&blocks[i][0], &blocks[i][1], &blocks[i][2]]);
+    let mut rows = [whole(0, 0), whole(1, 1), whole(2, 2), whole(0, 1), whole(1, 2), whole(0, 2)];
+    let [t11, t22, t33, t12, t23, t13] = stress.components;
+    let [h22, h33, h12, h23, h13] = [half * t22, half * t33, half * t12, half * t23, half * t13];
+    // ½ (`δ_ik T_jl + δ_il T_jk`).
+    rows[0][0] -= t11;
+    rows[0][3] -= h12;
+    rows[0][5] -= h13;
+    rows[1][1] -= t22;
+    rows[1][3] -= h12;
+    rows[1][4] -= h23;
+    rows[2][2] -= t33;
+    rows[2][4] -= h23;
+    rows[2][5] -= h13;
+    rows[3][0] -= t12;
+    rows[3][3] -= h22;
+    rows[3][5] -= h23;
+    rows[4][1] -= t23;
+    rows[4][3] -= h13;
+    rows[4][4] -= h33;
+    rows[5][0] -= t13;
+    rows[5][3] -= h23;
+    rows[5][5] -= h33;
+    rows
+}
