@@ -302,3 +302,59 @@ fn increments_allocate_nothing() {
         assert_eq!(counted, 0, "{}", law.name());
     }
 }
+
+/// Stresses and states along the paths that another program integrated, from one state array to the other and back.
+#[test]
+fn laws_by_name_follow_the_reference_paths() {
+    use piola_testkit::golden::{self, matrix, number, text, vector};
+    use piola_testkit::{Tol, assert_close};
+    let two = "neo_hookean-simo_taylor-neo_hookean-simo_taylor";
+    let laws: [(&str, &str, String, &[f64]); 7] = [
+        (
+            "inelastic_paths",
+            "bergstrom_boyce",
+            format!("bergstrom_boyce-{two}"),
+            &[1.0, 5.0, 2.0, 8.0, 0.25, 0.5, 3.0, -0.5, 0.0625],
+        ),
+        (
+            "inelastic_paths",
+            "reese_govindjee",
+            format!("reese_govindjee-{two}"),
+            &[1.0, 5.0, 2.0, 8.0, 0.75, 1.0 / 3.0],
+        ),
+        ("inelastic_paths", "viscoplastic", LAWS[3].0.to_owned(), LAWS[3].1),
+        ("inelastic_paths", "driven_growth", LAWS[7].0.to_owned(), LAWS[7].1),
+        ("inelastic_paths", "mullins", "mullins-neo_hookean-simo_taylor".to_owned(), &[1.0, 5.0, 2.0, 0.25, 0.125]),
+        ("kinematic_paths", "kinematic", LAWS[5].0.to_owned(), LAWS[5].1),
+        (
+            "kinematic_paths",
+            "kinematic_viscous",
+            LAWS[5].0.to_owned(),
+            &[2.0, 3.0, 0.25, 0.5, 0.25, 0.125, 0.5, 4.0, 1.5, 0.5],
+        ),
+    ];
+    let mut legs = 0;
+    for (file, name, law, values) in laws {
+        let law = history(&law, values).unwrap();
+        let mut before = vec![0.0; law.state_length()];
+        initial_states(&law, StateLayout::Rows, &mut before).unwrap();
+        let golden = golden::load(file);
+        for leg in golden.cases.iter().filter(|case| text(&case["law"]) == name) {
+            let rows = |which: &str| [*matrix(&leg["input"][which]).concat().first_chunk::<9>().unwrap()];
+            let (mut after, mut stress) = (before.clone(), [[0.0; 9]]);
+            let dt = number(&leg["input"]["duration"]);
+            let increment = Increment { from: &rows("from"), to: &rows("to"), dt, tolerance: Some(1e-12) };
+            let states = States { layout: StateLayout::Rows, before: &before, after: &mut after };
+            advance(&law, increment, states, StressMeasure::FirstPiola, &mut stress, None).unwrap();
+            let stated = Tol::stated(1e-10, "the error of an increment is controlled to 1e-12");
+            let what = text(&leg["id"]);
+            assert_close(&format!("{what}: P"), &stress[0], &vector(&leg["output"]["P"]), stated);
+            if leg["output"]["state"].is_array() {
+                assert_close(&format!("{what}: state"), &after, &vector(&leg["output"]["state"]), stated);
+            }
+            before = after;
+            legs += 1;
+        }
+    }
+    assert_eq!(legs, 15);
+}
