@@ -2,7 +2,7 @@
 
 use piola::inelastic::AnyInelastic;
 use piola_ffi::history::text::{history_from_fit, history_from_json};
-use piola_ffi::history::{Increment, StateLayout, States, advance, initial_states};
+use piola_ffi::history::{DeformationIncrement, StateLayout, States, advance, initial_states};
 use piola_ffi::points::{StressMeasure, TangentMeasure, VoigtNumbering};
 use piola_ffi::{FfiError, named};
 use pyo3::prelude::*;
@@ -71,7 +71,7 @@ impl History {
         let voigt = choice("Voigt order", &VoigtNumbering::ALL, &names.2)?;
         let layout = choice("layout of states", &StateLayout::ALL, &names.3)?;
         let (from, to) = (nine(numbers(&path.0)?)?, nine(numbers(&path.1)?)?);
-        let increment = Increment { from, to, dt: times.0, tolerance: times.1 };
+        let increment = DeformationIncrement { from, to, dt: times.0, tolerance: times.1 };
         let states = States { layout, before: numbers(&before)?, after: numbers_mut(&mut after)? };
         let stresses = points_mut(numbers_mut(&mut stresses)?)?;
         let tangents = match &mut tangents {

@@ -12,7 +12,7 @@ use super::memory::{choice, hand_over, handle, optional_text, points, points_mut
 use super::status::answer;
 use crate::history::abaqus::{Stretching, umat, vumat};
 use crate::history::text::{history_from_fit, history_from_json};
-use crate::history::{Increment, StateLayout, States, advance, initial_states};
+use crate::history::{DeformationIncrement, StateLayout, States, advance, initial_states};
 use crate::materials::material_with_history;
 use crate::points::{StressMeasure, TangentMeasure, VoigtNumbering};
 use crate::{FfiError, named};
@@ -212,7 +212,7 @@ pub unsafe extern "C" fn piola_history_advance(
         let layout = choice("layout of states", &StateLayout::ALL, layout)?;
         let wanted = if tangents.is_empty() { None } else { Some((tangent, numbering, tangents)) };
         let tolerance = if tolerance.to_bits() << 1 == 0 { None } else { Some(tolerance) };
-        let increment = Increment { from: points("from", from)?, to: points("to", to)?, dt, tolerance };
+        let increment = DeformationIncrement { from: points("from", from)?, to: points("to", to)?, dt, tolerance };
         let states = States { layout, before, after };
         advance(&history.0, increment, states, measure, points_mut("stresses", stresses)?, wanted)
     })

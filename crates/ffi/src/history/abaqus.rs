@@ -11,7 +11,7 @@
 
 use piola::inelastic::{AnyInelastic, MOST_STATE};
 
-use super::{Increment, StateLayout, States, advance};
+use super::{DeformationIncrement, StateLayout, States, advance};
 use crate::FfiError;
 use crate::abaqus::check_components;
 use crate::error::{check_finite, check_length};
@@ -73,7 +73,7 @@ pub fn umat(
     before.copy_from_slice(state);
     begun(law, before)?;
     let (mut stress, mut tangent) = ([[0.0; 9]], [0.0; 36]);
-    let increment = Increment { from: &from, to: &to, dt, tolerance: None };
+    let increment = DeformationIncrement { from: &from, to: &to, dt, tolerance: None };
     let states = States { layout: StateLayout::Rows, before, after };
     let wanted = (TangentMeasure::Jaumann, VoigtNumbering::Abaqus, &mut tangent[..]);
     advance(law, increment, states, StressMeasure::Cauchy, &mut stress, Some(wanted))?;
@@ -170,7 +170,7 @@ pub fn vumat(
             }
             to[point] = stretch(after, start + point, added);
         }
-        let increment = Increment { from: &from[..here], to: &to[..here], dt, tolerance: None };
+        let increment = DeformationIncrement { from: &from[..here], to: &to[..here], dt, tolerance: None };
         let rows = States { layout: StateLayout::Rows, before: states, after: &mut *ends };
         match advance(law, increment, rows, StressMeasure::Cauchy, &mut stresses[..here], None) {
             Err(FfiError::BadIncrements { bad, index, error, .. }) => {

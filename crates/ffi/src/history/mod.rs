@@ -6,7 +6,7 @@
 //! Points are advanced one after the other; with feature `rayon`, those of a large batch on all threads. An increment allocates nothing.
 //!
 //! ```
-//! use piola_ffi::history::{Increment, StateLayout, States, advance, initial_states};
+//! use piola_ffi::history::{DeformationIncrement, StateLayout, States, advance, initial_states};
 //! use piola_ffi::points::{StressMeasure, TangentMeasure, VoigtNumbering};
 //! let spring = [1.0, 2.0]; // shear_modulus, bulk_modulus of the volumetric part, Pa
 //! let values = [spring, spring, [0.5, 0.0]].concat(); // viscosity, Pa s, and bulk_fluidity
@@ -16,7 +16,7 @@
 //! let (mut before, mut after) = (vec![0.0; 900], vec![0.0; 900]);
 //! initial_states(&law, StateLayout::Rows, &mut before)?;
 //! let mut stresses = [[0.0; 9]; 100];
-//! let increment = Increment { from: &still, to: &sheared, dt: 1e-6, tolerance: None };
+//! let increment = DeformationIncrement { from: &still, to: &sheared, dt: 1e-6, tolerance: None };
 //! let states = States { layout: StateLayout::Rows, before: &before, after: &mut after };
 //! advance(&law, increment, states, StressMeasure::Cauchy, &mut stresses, None)?;
 //! assert!((stresses[99][1] - 0.6).abs() < 1e-5); // 2 μ k
@@ -60,7 +60,7 @@ impl StateLayout {
 /// # Example
 /// See the [module](self).
 #[derive(Clone, Copy, Debug)]
-pub struct Increment<'a> {
+pub struct DeformationIncrement<'a> {
     /// F at the start by rows.
     pub from: &'a [[f64; 9]],
     /// F at the end by rows.
@@ -128,7 +128,7 @@ pub fn initial_states(law: &AnyInelastic, layout: StateLayout, states: &mut [f64
 /// See the [module](self).
 pub fn advance(
     law: &AnyInelastic,
-    increment: Increment<'_>,
+    increment: DeformationIncrement<'_>,
     states: States<'_>,
     stress: StressMeasure,
     stresses: &mut [[f64; 9]],
@@ -164,7 +164,7 @@ pub fn advance(
 /// What all points share.
 struct Batch<'a> {
     law: &'a AnyInelastic,
-    increment: Increment<'a>,
+    increment: DeformationIncrement<'a>,
     control: StepControl,
     layout: StateLayout,
     before: &'a [f64],
@@ -250,7 +250,7 @@ impl Batch<'_> {
         stress: &mut [f64; 9],
         tangent: &mut [f64],
     ) -> Result<(), InelasticError> {
-        let Increment { from, to, dt, .. } = self.increment;
+        let DeformationIncrement { from, to, dt, .. } = self.increment;
         let to = deformation(&to[index])?;
         let advanced = step(self.law, state, [&deformation(&from[index])?, &to], dt, &self.control)?;
         conversions::stress(&advanced.first_piola, self.stress, &to, stress);

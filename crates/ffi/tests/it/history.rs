@@ -5,7 +5,7 @@ use piola::inelastic::{AnyInelastic, StepControl};
 use piola_ffi::FfiError;
 use piola_ffi::c::PiolaStatus;
 use piola_ffi::history::text::{history_from_fit, history_from_json};
-use piola_ffi::history::{Increment, StateLayout, States, advance, initial_states};
+use piola_ffi::history::{DeformationIncrement, StateLayout, States, advance, initial_states};
 use piola_ffi::named::{history, history_with_names, state_length};
 use piola_ffi::points::{StressMeasure, TangentMeasure, VoigtNumbering};
 use piola_testkit::allocations_in;
@@ -126,7 +126,7 @@ fn points_of_batches_in_both_layouts_are_those_of_the_library() {
         initial_states(&law, StateLayout::Components, &mut components).unwrap();
         let (mut after, mut others) = (rows.clone(), components.clone());
         let (mut p, mut t, mut a) = (vec![[0.0; 9]; COUNT], vec![[0.0; 9]; COUNT], vec![0.0; 81 * COUNT]);
-        let increment = Increment { from: &from, to: &to, dt: 0.25, tolerance: None };
+        let increment = DeformationIncrement { from: &from, to: &to, dt: 0.25, tolerance: None };
         let states = States { layout: StateLayout::Rows, before: &rows, after: &mut after };
         let wanted = (TangentMeasure::FirstPiola, VoigtNumbering::Piola, &mut a[..]);
         advance(&law, increment, states, StressMeasure::FirstPiola, &mut p, Some(wanted)).unwrap();
@@ -159,7 +159,7 @@ fn tangents_of_all_measures_are_conversions_of_the_consistent_one() {
         let mut compute = |measure: TangentMeasure| {
             let (mut p, mut c) = ([[0.0; 9]; 8], vec![0.0; 8 * measure.numbers()]);
             let states = States { layout: StateLayout::Rows, before: &before, after: &mut after };
-            let increment = Increment { from: &from, to: &to, dt: 0.25, tolerance: Some(1e-6) };
+            let increment = DeformationIncrement { from: &from, to: &to, dt: 0.25, tolerance: Some(1e-6) };
             let wanted = (measure, VoigtNumbering::Piola, &mut c[..]);
             advance(&law, increment, states, StressMeasure::FirstPiola, &mut p, Some(wanted)).unwrap();
             (p, c)
@@ -195,7 +195,7 @@ fn points_that_fail_are_named_and_keep_the_last_admissible_state() {
     let mut to = deformations(3);
     to[1] = [9.0, 0.0, 0.0, 0.0, 9.0, 0.0, 0.0, 0.0, 1.0 / 81.0]; // far beyond the limit of Gent's chains, in no time
     let (mut after, mut t) = (vec![7.0; 30], [[0.0; 9]; 3]);
-    let increment = Increment { from: &[STILL; 3], to: &to, dt: 1e-9, tolerance: None };
+    let increment = DeformationIncrement { from: &[STILL; 3], to: &to, dt: 1e-9, tolerance: None };
     let states = States { layout: StateLayout::Rows, before: &before, after: &mut after };
     let error = advance(&law, increment, states, StressMeasure::Cauchy, &mut t, None).unwrap_err();
     let text = error.to_string();
@@ -205,7 +205,7 @@ fn points_that_fail_are_named_and_keep_the_last_admissible_state() {
     assert!(t[1].iter().all(|x| x.is_nan()) && t[0].iter().chain(&t[2]).all(|x| x.is_finite()));
     assert!(after.iter().all(|x| x.is_finite()));
     to[1] = [0.0; 9];
-    let increment = Increment { from: &[STILL; 3], to: &to, dt: 0.5, tolerance: None };
+    let increment = DeformationIncrement { from: &[STILL; 3], to: &to, dt: 0.5, tolerance: None };
     let states = States { layout: StateLayout::Rows, before: &before, after: &mut after };
     let error = advance(&law, increment, states, StressMeasure::Cauchy, &mut t, None).unwrap_err();
     assert!(matches!(error, FfiError::BadIncrements { bad: 1, index: 1, .. }), "{error}");
@@ -221,7 +221,7 @@ fn a_failed_newton_iteration_returns_the_state_at_its_last_share() {
     let mut before = [0.0; 9];
     initial_states(&law, StateLayout::Rows, &mut before).unwrap();
     let (mut after, mut t) = ([0.0; 9], [[0.0; 9]]);
-    let increment = Increment { from: &[STILL], to: &to, dt: 1.0, tolerance: Some(1e-8) };
+    let increment = DeformationIncrement { from: &[STILL], to: &to, dt: 1.0, tolerance: Some(1e-8) };
     let states = States { layout: StateLayout::Rows, before: &before, after: &mut after };
     let text = advance(&law, increment, states, StressMeasure::Cauchy, &mut t, None).unwrap_err().to_string();
     assert!(text.contains("at point 0") && text.contains("share 0."), "{text}");
@@ -235,7 +235,7 @@ fn wrong_lengths_and_numbers_are_refused_before_anything_is_written() {
     let (f, before) = ([STILL; 2], [0.0; 2]);
     let run = |to: &[[f64; 9]], dt: f64, tolerance: Option<f64>, before: &[f64], after: &mut [f64]| {
         let mut t = [[7.0; 9]; 2];
-        let increment = Increment { from: &f, to, dt, tolerance };
+        let increment = DeformationIncrement { from: &f, to, dt, tolerance };
         let states = States { layout: StateLayout::Rows, before, after };
         let result = advance(&law, increment, states, StressMeasure::Cauchy, &mut t, None);
         assert!(result.is_ok() || t == [[7.0; 9]; 2]);
@@ -294,7 +294,7 @@ fn increments_allocate_nothing() {
         initial_states(&law, StateLayout::Components, &mut before).unwrap();
         let (mut after, mut t, mut c) = (before.clone(), [[0.0; 9]; 20], [0.0; 36 * 20]);
         let (counted, ()) = allocations_in(|| {
-            let increment = Increment { from: &from, to: &to, dt: 0.5, tolerance: None };
+            let increment = DeformationIncrement { from: &from, to: &to, dt: 0.5, tolerance: None };
             let states = States { layout: StateLayout::Components, before: &before, after: &mut after };
             let wanted = (TangentMeasure::Jaumann, VoigtNumbering::Abaqus, &mut c[..]);
             advance(&law, increment, states, StressMeasure::Cauchy, &mut t, Some(wanted)).unwrap();
@@ -343,7 +343,7 @@ fn laws_by_name_follow_the_reference_paths() {
             let rows = |which: &str| [*matrix(&leg["input"][which]).concat().first_chunk::<9>().unwrap()];
             let (mut after, mut stress) = (before.clone(), [[0.0; 9]]);
             let dt = number(&leg["input"]["duration"]);
-            let increment = Increment { from: &rows("from"), to: &rows("to"), dt, tolerance: Some(1e-12) };
+            let increment = DeformationIncrement { from: &rows("from"), to: &rows("to"), dt, tolerance: Some(1e-12) };
             let states = States { layout: StateLayout::Rows, before: &before, after: &mut after };
             advance(&law, increment, states, StressMeasure::FirstPiola, &mut stress, None).unwrap();
             let stated = Tol::stated(1e-10, "the error of an increment is controlled to 1e-12");
