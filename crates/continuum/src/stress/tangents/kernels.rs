@@ -90,24 +90,23 @@ pub fn material_tangent<T: Real>(inverse: Rows<T>, stress: &Symmetric<T>, tangen
     result
 }
 
-/// c/J of ∂P/∂F: `F_jA F_lB A_iAkB/J − δ_ik T_jl` at i ≤ j, the mean over the exchange of k and l. Written out, as [`half_contracted`].
+/// c/J of ∂P/∂F: `F_jA F_lB A_iAkB/J − δ_ik T_jl` at i ≤ j, the mean over the exchange of k and l.
+///
+/// Its parts are functions: closures are not inlined into lanes, which doubles the time.
 #[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn spatial_tangent<T: Real>(f: Rows<T>, volume: T, stress: &Symmetric<T>, tangent: &[[T; 9]; 9]) -> Slots<T> {
-    // `A_iAkB F_lB/J`: rows (i, A), columns the pairs (k, l).
     let (scale, half) = (volume.recip(), T::lit(0.5));
-    let scaled = |row: [T; 3]| [row[0] * scale, row[1] * scale, row[2] * scale];
-    let g = [scaled(f[0]), scaled(f[1]), scaled(f[2])];
-    let contracted = |row: usize| {
-        let a = &tangent[row];
-        let at = |k: usize, l: usize| g[l][0] * a[3 * k] + g[l][1] * a[3 * k + 1] + g[l][2] * a[3 * k + 2];
-        let mean = |k: usize, l: usize| half * (at(k, l) + at(l, k));
-        [at(0, 0), at(1, 1), at(2, 2), mean(0, 1), mean(1, 2), mean(0, 2)]
-    };
-    let block = |i: usize| [contracted(3 * i), contracted(3 * i + 1), contracted(3 * i + 2)];
-    let blocks = [block(0), block(1), block(2)];
-    let whole = |i: usize, j: usize| half_contracted(f[j], [&blocks[i][0], &blocks[i][1], &blocks[i][2]]);
-    let mut rows = [whole(0, 0), whole(1, 1), whole(2, 2), whole(0, 1), whole(1, 2), whole(0, 2)];
+    let g = [scaled(f[0], scale), scaled(f[1], scale), scaled(f[2], scale)];
+    let [x, y, z] = [block(&g, tangent, 0, half), block(&g, tangent, 1, half), block(&g, tangent, 2, half)];
+    let mut rows = [
+        half_contracted(f[0], [&x[0], &x[1], &x[2]]),
+        half_contracted(f[1], [&y[0], &y[1], &y[2]]),
+        half_contracted(f[2], [&z[0], &z[1], &z[2]]),
+        half_contracted(f[1], [&x[0], &x[1], &x[2]]),
+        half_contracted(f[2], [&y[0], &y[1], &y[2]]),
+        half_contracted(f[2], [&x[0], &x[1], &x[2]]),
+    ];
     let [t11, t22, t33, t12, t23, t13] = stress.components;
     let [h22, h33, h12, h23, h13] = [half * t22, half * t33, half * t12, half * t23, half * t13];
     // ½ (`δ_ik T_jl + δ_il T_jk`).
@@ -130,4 +129,38 @@ pub fn spatial_tangent<T: Real>(f: Rows<T>, volume: T, stress: &Symmetric<T>, ta
     rows[5][3] -= h23;
     rows[5][5] -= h33;
     rows
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn scaled<T: Real>(row: [T; 3], scale: T) -> [T; 3] {
+    [row[0] * scale, row[1] * scale, row[2] * scale]
+}
+
+/// `A_iAkB F_lB` of row (i, A).
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn along<T: Real>(g: [T; 3], row: &[T; 9], k: usize) -> T {
+    g[0] * row[3 * k] + g[1] * row[3 * k + 1] + g[2] * row[3 * k + 2]
+}
+
+/// The same for the six pairs (k, l).
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn contracted<T: Real>(g: &Rows<T>, row: &[T; 9], half: T) -> [T; 6] {
+    [
+        along(g[0], row, 0),
+        along(g[1], row, 1),
+        along(g[2], row, 2),
+        half * (along(g[1], row, 0) + along(g[0], row, 1)),
+        half * (along(g[2], row, 1) + along(g[1], row, 2)),
+        half * (along(g[2], row, 0) + along(g[0], row, 2)),
+    ]
+}
+
+/// The same for the three rows of i.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn block<T: Real>(g: &Rows<T>, tangent: &[[T; 9]; 9], i: usize, half: T) -> [[T; 6]; 3] {
+    [
+        contracted(g, &tangent[3 * i], half),
+        contracted(g, &tangent[3 * i + 1], half),
+        contracted(g, &tangent[3 * i + 2], half),
+    ]
 }
