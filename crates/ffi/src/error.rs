@@ -138,7 +138,7 @@ pub enum FfiError {
         /// The first point that failed, from 0.
         index: usize,
         /// The message of the law for that point, with the last admissible deformation.
-        error: InelasticError,
+        error: Box<InelasticError>,
     },
     /// A law with history refuses.
     #[cfg(feature = "history")]

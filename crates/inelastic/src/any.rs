@@ -1,5 +1,7 @@
 //! A law with history that is chosen at run time: by scenes, fits and other languages.
 
+use core::marker::PhantomData;
+
 use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::{DeformationGradient, FirstPiola};
 use piola_solids::{AnySolid, Hyperelastic};
@@ -129,7 +131,7 @@ macro_rules! laws {
             #[must_use]
             pub fn state_length_of(name: &str) -> Option<usize> {
                 match name {
-                    $($name => Some(length_of::<$type, _, _>()),)+
+                    $($name => Some(length_of(PhantomData::<$type>)),)+
                     _ => None,
                 }
             }
@@ -226,7 +228,7 @@ fn check(law: &'static str, part: &'static str, spring: &AnySolid, kind: Part) -
     Err(InelasticError::WrongSpring { law, part, found, needed })
 }
 
-const fn length_of<L: Evolution<S, X>, const S: usize, const X: usize>() -> usize {
+const fn length_of<L: Evolution<S, X>, const S: usize, const X: usize>(_law: PhantomData<L>) -> usize {
     S
 }
 

@@ -134,17 +134,18 @@ pub fn advance(
     stresses: &mut [[f64; 9]],
     tangents: Option<Tangents<'_>>,
 ) -> Result<(), FfiError> {
+    let States { layout, before, after } = states;
     let (count, length) = (increment.from.len(), law.state_length());
     check_length("deformations after", count, increment.to.len())?;
-    check_length("states before", count * length, states.before.len())?;
-    check_length("states after", count * length, states.after.len())?;
+    check_length("states before", count * length, before.len())?;
+    check_length("states after", count * length, after.len())?;
     check_length("stresses", count, stresses.len())?;
     check_finite("dt", &[increment.dt])?;
     if increment.dt < 0.0 {
         let (law, parameter, bound) = ("increment", "dt", "0 ≤ dt");
         return Err(InelasticError::OutOfBounds { law, parameter, value: increment.dt, bound }.into());
     }
-    check_finite("states before", states.before)?;
+    check_finite("states before", before)?;
     let control = match increment.tolerance {
         Some(tolerance) => StepControl::new(tolerance)?,
         None => StepControl::one_step(),
@@ -156,8 +157,8 @@ pub fn advance(
         }
         None => (None, &mut [][..]),
     };
-    let batch = Batch { law, increment, control, layout: states.layout, before: states.before, stress, tangent };
-    let after = After::of(states.layout, length, states.after);
+    let batch = Batch { law, increment, control, layout, before, stress, tangent };
+    let after = After::of(layout, length, after);
     batch.run(Part { first: 0, after, stresses, tangents: numbers }).finish(count)
 }
 
@@ -191,7 +192,9 @@ impl Bad {
     fn finish(self, count: usize) -> Result<(), FfiError> {
         match self.first {
             None => Ok(()),
-            Some((index, error)) => Err(FfiError::BadIncrements { bad: self.count, count, index, error }),
+            Some((index, error)) => {
+                Err(FfiError::BadIncrements { bad: self.count, count, index, error: Box::new(error) })
+            }
         }
     }
 }

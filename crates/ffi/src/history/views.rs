@@ -19,6 +19,7 @@ pub(super) fn gather(layout: StateLayout, states: &[f64], index: usize, state: &
 }
 
 /// Where states of some of the points go.
+#[expect(clippy::large_enum_variant, reason = "one value a batch, on the stack: nothing is allocated")]
 pub(super) enum After<'a> {
     Rows { length: usize, states: &'a mut [f64] },
     Components([&'a mut [f64]; MOST_STATE]),

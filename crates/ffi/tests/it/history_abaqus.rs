@@ -65,8 +65,11 @@ impl<'a> Element<'a> {
     }
 }
 
-/// The paths: a name, and deformations with the times that lead to them.
-fn paths() -> Vec<(&'static str, Vec<(Matrix3<f64>, f64)>)> {
+/// Deformations with the times that lead to them.
+type Path = Vec<(Matrix3<f64>, f64)>;
+
+/// The paths by name.
+fn paths() -> Vec<(&'static str, Path)> {
     let uniaxial = |k: usize| {
         Matrix3::from_diagonal(&[1.0 + 0.02 * k as f64, 1.0 - 0.008 * k as f64, 1.0 - 0.008 * k as f64].into())
     };

@@ -25,7 +25,7 @@ fn stress_and_tangent_of_given_growth_equal_those_of_the_grown_law() -> Fallible
     assert_close_at_scale("P", found.first_piola.0.as_slice(), stress.0.as_slice(), 1.0, Tol::ulps(64.0));
     let (found_tangent, tangent) = (found.tangent.0.components, tangent.0.components);
     assert_close_at_scale("∂P/∂F", found_tangent.as_flattened(), tangent.as_flattened(), 10.0, Tol::ulps(64.0));
-    assert_eq!(found.state, growth.as_flattened());
+    assert!(found.state.iter().zip(growth.as_flattened()).all(|(x, y)| x.to_bits() == y.to_bits()), "{found:?}");
     Ok(())
 }
 
@@ -35,7 +35,7 @@ fn stress_of_a_temperature_equals_that_of_the_heated_law() -> Fallible {
     let expansion = ThermalExpansion { coefficient: 1e-3, reference_temperature: 300.0 };
     let stress = Grown::heated(law, &expansion, 420.0)?.first_piola(&f);
     let thermal = Thermal::new(law, expansion)?;
-    assert_eq!(InelasticPoint::new(&thermal).state(), &[300.0]);
+    assert_eq!(InelasticPoint::new(&thermal).state().map(f64::to_bits), [300.0_f64.to_bits()]);
     let found = InelasticPoint::with_state(&thermal, &[420.0], &f)?.trial(&f, 0.0, &StepControl::one_step())?;
     assert_close_at_scale("P", found.first_piola.0.as_slice(), stress.0.as_slice(), 1.0, Tol::ulps(64.0));
     Ok(())
