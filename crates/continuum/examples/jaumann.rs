@@ -93,7 +93,7 @@ fn main() -> Result<(), ContinuumError> {
     let (p, tangent) = (stress.first_piola(&f), material.first_piola(&stress, &f));
     let entries = [f.matrix().transpose(), p.0.transpose()];
     let mut numbers = [0.0; NUMBERS];
-    let all = entries.iter().flat_map(|m| m.as_slice()).chain(tangent.0.components.as_flattened());
+    let all = entries.iter().flat_map(nalgebra::Matrix3::as_slice).chain(tangent.0.components.as_flattened());
     for (number, value) in numbers.iter_mut().zip(all) {
         *number = *value;
     }
