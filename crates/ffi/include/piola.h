@@ -75,8 +75,23 @@ typedef enum {
   PIOLA_VISCOMETRIC_SHEAR_RATE = 4,
 } PiolaViscometric;
 
+#if defined(PIOLA_HISTORY)
+// How the states of n points stand in memory; S is the number of internal variables.
+typedef enum {
+  // The state of a point in one piece: number k of point i at S i + k.
+  PIOLA_LAYOUT_ROWS = 0,
+  // Each internal variable of all points in one piece: number k of point i at n k + i.
+  PIOLA_LAYOUT_COMPONENTS = 1,
+} PiolaLayout;
+#endif
+
 // A fluid. Made by `piola_fluid_from_*`, freed by `piola_fluid_free`.
 typedef struct PiolaFluid PiolaFluid;
+
+#if defined(PIOLA_HISTORY)
+// A law with history. Made by `piola_history_from_*`, freed by `piola_history_free`.
+typedef struct PiolaHistory PiolaHistory;
+#endif
 
 // A law of a solid. Made by `piola_solid_from_*`, freed by `piola_solid_free`.
 typedef struct PiolaSolid PiolaSolid;
@@ -255,6 +270,135 @@ PiolaStatus piola_vumat(const char *name,
                         const double *stretches,
                         double added,
                         double *stresses);
+
+#if defined(PIOLA_HISTORY)
+// Makes a law with history from JSON, such as `{"law": "in_series", "first": {...}, "second": {...}, "viscosity": 0.5}`.
+PiolaStatus piola_history_from_json(const char *json,
+                                    PiolaHistory **made);
+#endif
+
+#if defined(PIOLA_HISTORY)
+// Makes the law of a fit of laws with history from the text of its `summary.json`.
+//
+// `model` chooses one of its laws, such as `reese-govindjee`; a null pointer chooses the best by `aicc`.
+PiolaStatus piola_history_from_fit(const char *summary, const char *model, PiolaHistory **made);
+#endif
+
+#if defined(PIOLA_HISTORY)
+// Makes a law with history from its name, such as `mullins-neo_hookean-lame`, and its parameters in the order of the reference.
+PiolaStatus piola_history_from_values(const char *name,
+                                      const double *values,
+                                      size_t count,
+                                      PiolaHistory **made);
+#endif
+
+#if defined(PIOLA_HISTORY)
+// Makes a law with history from its name and `count` parameters by name, such as `overstress.shear_modulus`, in any order.
+PiolaStatus piola_history_from_names(const char *name,
+                                     const char *const *names,
+                                     const double *values,
+                                     size_t count,
+                                     PiolaHistory **made);
+#endif
+
+#if defined(PIOLA_HISTORY)
+// Frees a law with history; a null pointer is no fault.
+void piola_history_free(PiolaHistory *history);
+#endif
+
+#if defined(PIOLA_HISTORY)
+// The number of internal variables of a law.
+PiolaStatus piola_history_state_length(const PiolaHistory *history, size_t *length);
+#endif
+
+#if defined(PIOLA_HISTORY)
+// The number of internal variables of the law with this name, such as `kinematic-hencky-lame-hencky-lame`, as NSTATV of Abaqus.
+PiolaStatus piola_history_state_length_of(const char *name,
+                                          size_t *length);
+#endif
+
+#if defined(PIOLA_HISTORY)
+// Writes the states of n points of the body as it was made; `layout` is a `PiolaLayout`.
+PiolaStatus piola_history_initial_states(const PiolaHistory *history,
+                                         int32_t layout,
+                                         double *states,
+                                         size_t states_length);
+#endif
+
+#if defined(PIOLA_HISTORY)
+// One increment at n points: stresses, consistent tangents and new states.
+//
+// `stress` is a `PiolaStress`, `tangent` a `PiolaTangent`, `voigt` a `PiolaVoigt`, `layout` a `PiolaLayout`. The deformation gradients
+// `from` and `to`, 9 n numbers by rows, are those at the start and the end; the increment takes `dt` s. `tolerance` bounds the estimated
+// error of the internal variables; with 0 the increment is one implicit step. `before` and `after` have n states, which must not be the
+// same memory. `tangents` may be a null pointer with the length 0; otherwise it gets 81 or 36 numbers a point, by rows, which lack the
+// major symmetry in general.
+//
+// After `PIOLA_STATUS_BAD_POINTS` stresses and tangents of the points that failed are NaN and their new states the last admissible
+// ones; the message names the first of them, and the share of the increment at which its state lies. All others are advanced.
+PiolaStatus piola_history_advance(const PiolaHistory *history,
+                                  int32_t stress,
+                                  int32_t tangent,
+                                  int32_t voigt,
+                                  int32_t layout,
+                                  double dt,
+                                  double tolerance,
+                                  const double *from,
+                                  const double *to,
+                                  size_t f_length,
+                                  const double *before,
+                                  double *after,
+                                  size_t states_length,
+                                  double *stresses,
+                                  size_t stresses_length,
+                                  double *tangents,
+                                  size_t tangents_length);
+#endif
+
+#if defined(PIOLA_HISTORY)
+// STRESS, DDSDDE and STATEV of Abaqus at one point of a law with history; see `fortran/umat_history.f`.
+//
+// `name` has `name_length` characters: a law with its parameters in `properties`, or the name of a file in the folder
+// `PIOLA_MATERIALS`. `from` and `to` are DFGRD0 and DFGRD1, nine numbers by columns. `state` has `state_length` numbers, zeros for the
+// body as it was made. `stress` gets NTENS = `direct` + `shear` numbers, `tangent` NTENS^2 by columns.
+PiolaStatus piola_history_umat(const char *name,
+                               size_t name_length,
+                               const double *properties,
+                               size_t properties_length,
+                               size_t direct,
+                               size_t shear,
+                               const double *from,
+                               const double *to,
+                               double dt,
+                               double *state,
+                               size_t state_length,
+                               double *stress,
+                               double *tangent);
+#endif
+
+#if defined(PIOLA_HISTORY)
+// Corotated stresses and states of Abaqus/Explicit of a law with history; see `fortran/vumat_history.f`.
+//
+// `before` and `after` have n (`direct` + `shear`) numbers, each component an array: 11, 22, 33, 12, 23, 13; with a null pointer
+// the body is undeformed before. `added` is added to the diagonal of `after`: 0 for stretches, 1 for small strains. `old` and `new_states`
+// have n `state_length` numbers, each variable an array; a state of zeros is that of the body as it was made. `stresses` gets as many
+// numbers as `after` has.
+PiolaStatus piola_history_vumat(const char *name,
+                                size_t name_length,
+                                const double *properties,
+                                size_t properties_length,
+                                size_t points,
+                                size_t direct,
+                                size_t shear,
+                                const double *before,
+                                const double *after,
+                                double added,
+                                double dt,
+                                const double *old,
+                                double *new_states,
+                                size_t state_length,
+                                double *stresses);
+#endif
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -14,7 +14,7 @@ use crate::error::{check_finite, check_length};
 use crate::points::{StressMeasure, TangentMeasure, VoigtNumbering, stress, stress_and_tangent};
 
 /// Refuses components other than those of solid elements: 3 and 3, and 3 and 1 of plane strain and axial symmetry.
-fn check_components(direct: usize, shear: usize) -> Result<(), FfiError> {
+pub(crate) fn check_components(direct: usize, shear: usize) -> Result<(), FfiError> {
     if direct == 3 && matches!(shear, 1 | 3) { Ok(()) } else { Err(FfiError::Components { direct, shear }) }
 }
 

@@ -1,14 +1,14 @@
 //! Stresses and tangents of other measures from P and ∂P/∂F, in lanes: one formula for all laws.
 //!
 //! ```text
-//! S = sym(F⁻¹ P)      T = F S Fᵀ/J of P: sym(P Fᵀ)/J      ∂S/∂E = F⁻¹ F⁻¹ (∂P/∂F − 1 ⊗ S)      c/J = F F F F ∂S/∂E /J
+//! S = sym(F⁻¹ P)      T = F S Fᵀ/J of P: sym(P Fᵀ)/J      ∂S/∂E = F⁻¹ F⁻¹ (∂P/∂F − 1 ⊗ S)      c/J = F F ∂P/∂F /J − 1 ⊗̄ T
 //! ```
 
 use piola::continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent};
 use piola::continuum::{Deformation, DeformationGradient, FirstPiola};
 use piola::numerics::Real;
 use piola::numerics::linear::matrix3::from_rows;
-use piola::tensor::FourthOrder;
+use piola::tensor::{FourthOrder, MajorSymmetric, MinorSymmetric, PairSymmetric};
 
 use crate::stages::Stage;
 
@@ -51,6 +51,12 @@ fn material<T: Real>(numbers: &[T; 55], deformation: &impl Deformation<T>) -> Ma
     MaterialTangent(tangent(numbers).material(&stress, deformation).0.major_part())
 }
 
+/// The upper triangle of a tangent with the symmetry of a law that has an energy.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn upper<T: Real>(tangent: &MinorSymmetric<T>) -> [T; 21] {
+    MajorSymmetric::from_slots(&tangent.components).components
+}
+
 macro_rules! conversions {
     ($($(#[$about:meta])* $name:ident [$i:literal => $k:literal], |$f:ident, $numbers:ident| $value:expr;)*) => { $(
         $(#[$about])*
@@ -73,11 +79,14 @@ conversions! {
     /// ∂S/∂E of P and ∂P/∂F: the upper triangle of 6×6 entries by rows.
     MaterialOfFirstPiola [55 => 21], |f, numbers| material(&numbers, f).0.components;
     /// c/J of P and ∂P/∂F.
-    TruesdellOfFirstPiola [55 => 21], |f, numbers| material(&numbers, f).truesdell(f).0.components;
+    TruesdellOfFirstPiola [55 => 21], |f, numbers| {
+        let stress = stress(&numbers).kirchhoff(f).cauchy(f);
+        upper(&tangent(&numbers).spatial(&stress, f).0)
+    };
     /// Jaumann's tangent of P and ∂P/∂F.
     JaumannOfFirstPiola [55 => 21], |f, numbers| {
         let stress = stress(&numbers).kirchhoff(f).cauchy(f);
-        material(&numbers, f).truesdell(f).jaumann(&stress).0.components
+        upper(&tangent(&numbers).spatial(&stress, f).jaumann(&stress).0)
     };
 }
 

@@ -2,6 +2,8 @@
 
 use piola::fit::FitError;
 use piola::fluids::FluidsError;
+#[cfg(feature = "history")]
+use piola::inelastic::InelasticError;
 use piola::solids::SolidsError;
 use piola::viscometry::ViscometryError;
 
@@ -125,6 +127,23 @@ pub enum FfiError {
         /// The message of the law for that point.
         error: SolidsError,
     },
+    /// Increments of points of a batch failed; all other points are advanced.
+    #[cfg(feature = "history")]
+    #[error("{bad} of {count} points failed: at point {index}, {error}")]
+    BadIncrements {
+        /// How many points failed.
+        bad: usize,
+        /// The number of points.
+        count: usize,
+        /// The first point that failed, from 0.
+        index: usize,
+        /// The message of the law for that point, with the last admissible deformation.
+        error: Box<InelasticError>,
+    },
+    /// A law with history refuses.
+    #[cfg(feature = "history")]
+    #[error(transparent)]
+    Inelastic(#[from] InelasticError),
     /// A law of a solid refuses.
     #[error(transparent)]
     Solids(#[from] SolidsError),

@@ -15,6 +15,8 @@ mod conversions;
 mod error;
 mod evaluation;
 pub mod flows;
+#[cfg(feature = "history")]
+pub mod history;
 #[doc(hidden)]
 pub mod internal {
     //! For the tests of this crate.

@@ -4,8 +4,14 @@ use std::cell::RefCell;
 use std::path::PathBuf;
 use std::rc::Rc;
 
+#[cfg(feature = "history")]
+use piola::inelastic::AnyInelastic;
 use piola::solids::AnySolid;
 
+#[cfg(feature = "history")]
+use crate::history::named::is_history;
+#[cfg(feature = "history")]
+use crate::history::text::{history_from_fit, history_from_value};
 use crate::{FfiError, named, text};
 
 /// The environment variable with the folder of materials in files.
@@ -15,13 +21,13 @@ pub const FOLDER: &str = "PIOLA_MATERIALS";
 const KEPT: usize = 64;
 
 /// A material as it was asked for, and its law.
-struct Material {
+struct Material<L> {
     name: String,
     properties: Vec<f64>,
-    law: Rc<AnySolid>,
+    law: Rc<L>,
 }
 
-impl Material {
+impl<L> Material<L> {
     fn is(&self, name: &str, properties: &[f64]) -> bool {
         self.name == name
             && self.properties.len() == properties.len()
@@ -29,9 +35,42 @@ impl Material {
     }
 }
 
+/// The materials of a thread.
+struct Kept<L> {
+    materials: Vec<Material<L>>,
+    /// Which is forgotten next.
+    next: usize,
+}
+
+impl<L> Kept<L> {
+    const fn new() -> RefCell<Self> {
+        RefCell::new(Self { materials: Vec::new(), next: 0 })
+    }
+
+    /// The law of a material, made where it is not here yet.
+    fn get(
+        &mut self,
+        name: &str,
+        properties: &[f64],
+        make: impl FnOnce() -> Result<L, FfiError>,
+    ) -> Result<Rc<L>, FfiError> {
+        if let Some(found) = self.materials.iter().find(|material| material.is(name, properties)) {
+            return Ok(Rc::clone(&found.law));
+        }
+        let law = Rc::new(make()?);
+        let made = Material { name: name.to_owned(), properties: properties.to_vec(), law: Rc::clone(&law) };
+        if self.materials.len() < KEPT {
+            self.materials.push(made);
+        } else {
+            self.materials[self.next] = made;
+            self.next = (self.next + 1) % KEPT;
+        }
+        Ok(law)
+    }
+}
+
 thread_local! {
-    /// The materials of this thread, and which is forgotten next.
-    static MATERIALS: RefCell<(Vec<Material>, usize)> = const { RefCell::new((Vec::new(), 0)) };
+    static MATERIALS: RefCell<Kept<AnySolid>> = const { Kept::new() };
 }
 
 /// The law of a material. It is made once for each thread; later calls only find it.
@@ -52,42 +91,74 @@ thread_local! {
 /// # Errors
 /// As [`named::solid`]; [`FfiError::NoMaterial`]; an unreadable or invalid file.
 pub fn material(name: &str, properties: &[f64]) -> Result<Rc<AnySolid>, FfiError> {
-    MATERIALS.with_borrow_mut(|(materials, next)| {
-        if let Some(found) = materials.iter().find(|material| material.is(name, properties)) {
-            return Ok(Rc::clone(&found.law));
+    let make = || if named::is_law(name) { named::solid(name, properties) } else { from_file(name) };
+    MATERIALS.with_borrow_mut(|kept| kept.get(name, properties, make))
+}
+
+#[cfg(feature = "history")]
+thread_local! {
+    static HISTORIES: RefCell<Kept<AnyInelastic>> = const { Kept::new() };
+}
+
+/// The law with history of a material, as [`material`]: its name is that of a law ([`named::history`]) with the properties as its
+/// parameters, or that of a file with a law in its written form, the summary of a fit, or the name of one.
+///
+/// ```text
+/// {"fit": "summary.json", "model": "reese-govindjee"}
+/// ```
+///
+/// # Errors
+/// As [`named::history`]; [`FfiError::NoMaterial`]; an unreadable or invalid file.
+#[cfg(feature = "history")]
+pub fn material_with_history(name: &str, properties: &[f64]) -> Result<Rc<AnyInelastic>, FfiError> {
+    let make = || {
+        if is_history(name) {
+            return named::history(name, properties);
         }
-        let law = Rc::new(if named::is_law(name) { named::solid(name, properties)? } else { from_file(name)? });
-        let made = Material { name: name.to_owned(), properties: properties.to_vec(), law: Rc::clone(&law) };
-        if materials.len() < KEPT {
-            materials.push(made);
-        } else {
-            materials[*next] = made;
-            *next = (*next + 1) % KEPT;
+        let File { text, value } = File::of(name)?;
+        match value["fit"].as_str() {
+            Some(fit) => history_from_fit(&read(name, fit)?, value["model"].as_str()),
+            None if value.get("laws").is_some() => history_from_fit(&text, None),
+            None => history_from_value(value),
         }
-        Ok(law)
+    };
+    HISTORIES.with_borrow_mut(|kept| kept.get(name, properties, make))
+}
+
+/// The text of a file in the folder of materials.
+fn read(name: &str, file: &str) -> Result<String, FfiError> {
+    let path = std::env::var_os(FOLDER).map(PathBuf::from).unwrap_or_default().join(file);
+    std::fs::read_to_string(&path).map_err(|error| FfiError::NoMaterial {
+        name: name.to_owned(),
+        path: path.display().to_string(),
+        message: error.to_string(),
     })
+}
+
+/// The file of a material.
+struct File {
+    text: String,
+    value: serde_json::Value,
+}
+
+impl File {
+    fn of(name: &str) -> Result<Self, FfiError> {
+        let text = read(name, &format!("{}.json", name.to_ascii_lowercase()))?;
+        let value = serde_json::from_str(&text)
+            .map_err(|error| FfiError::Unreadable { what: "file of a material", message: error.to_string() })?;
+        Ok(Self { text, value })
+    }
 }
 
 /// The law of a material's file.
 fn from_file(name: &str) -> Result<AnySolid, FfiError> {
-    let folder = std::env::var_os(FOLDER).map(PathBuf::from).unwrap_or_default();
-    let read = |file: &str| {
-        let path = folder.join(file);
-        std::fs::read_to_string(&path).map_err(|error| FfiError::NoMaterial {
-            name: name.to_owned(),
-            path: path.display().to_string(),
-            message: error.to_string(),
-        })
-    };
-    let text = read(&format!("{}.json", name.to_ascii_lowercase()))?;
-    let value: serde_json::Value = serde_json::from_str(&text)
-        .map_err(|error| FfiError::Unreadable { what: "file of a material", message: error.to_string() })?;
+    let File { text, value } = File::of(name)?;
     if let Some(fit) = value["fit"].as_str() {
         let volumetric = match value.get("volumetric") {
             Some(written) => Some(text::volumetric_from_value(written.clone())?),
             None => None,
         };
-        return text::solid_from_fit(&read(fit)?, value["model"].as_str(), volumetric);
+        return text::solid_from_fit(&read(name, fit)?, value["model"].as_str(), volumetric);
     }
     if value.get("laws").is_some() { text::solid_from_fit(&text, None, None) } else { text::solid_from_value(value) }
 }

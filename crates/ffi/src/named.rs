@@ -150,13 +150,13 @@ const VOLUMETRIC: &[(&str, &[Slot])] = &[
 ];
 
 /// A law whose name is resolved: the name, slots and place (nothing for the law itself) of each piece.
-struct Resolved {
+pub(crate) struct Resolved {
     law: String,
     pieces: Vec<(&'static str, &'static [Slot], Option<Part>)>,
 }
 
 /// The words of a name, in small letters.
-fn words(name: &str) -> Vec<String> {
+pub(crate) fn words(name: &str) -> Vec<String> {
     let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
     name.split(|c| !is_letter(c)).filter(|word| !word.is_empty()).map(str::to_ascii_lowercase).collect()
 }
@@ -166,13 +166,25 @@ pub(crate) fn is_law(name: &str) -> bool {
     words(name).first().is_some_and(|word| SOLIDS.iter().any(|(law, _, _)| law == word))
 }
 
-fn list<'n>(names: impl Iterator<Item = &'n str>) -> String {
+pub(crate) fn list<'n>(names: impl Iterator<Item = &'n str>) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
 impl Resolved {
     fn of(name: &str) -> Result<Self, FfiError> {
         let mut words = words(name).into_iter();
+        let resolved = Self::of_words(&mut words)?;
+        match words.next() {
+            None => Ok(resolved),
+            Some(given) => {
+                let valid = format!("no further parts of `{}`", resolved.law);
+                Err(FfiError::UnknownChoice { choice: "part of this law", given, valid })
+            }
+        }
+    }
+
+    /// The law of the words up to its last part.
+    pub(crate) fn of_words(words: &mut impl Iterator<Item = String>) -> Result<Self, FfiError> {
         let first = words.next().unwrap_or_default();
         let Some((law, slots, parts)) = SOLIDS.iter().find(|(law, _, _)| *law == first) else {
             let valid = list(SOLIDS.iter().map(|(law, _, _)| *law));
@@ -191,10 +203,6 @@ impl Resolved {
             };
             pieces.push((*name, *slots, Some(*part)));
         }
-        if let Some(given) = words.next() {
-            let valid = format!("no further parts of `{law}`");
-            return Err(FfiError::UnknownChoice { choice: "part of this law", given, valid });
-        }
         Ok(Self { law: list(pieces.iter().map(|(name, _, _)| *name)).replace(", ", "-"), pieces })
     }
 
@@ -210,8 +218,33 @@ impl Resolved {
         }))
     }
 
+    /// The name of the law with those of its parts.
+    #[cfg(feature = "history")]
+    pub(crate) fn law(&self) -> &str {
+        &self.law
+    }
+
+    /// The parameters, if each is one number.
+    #[cfg(feature = "history")]
+    pub(crate) fn numbers(&self) -> Option<Vec<String>> {
+        self.slots()
+            .map(|(slot, part)| match (slot, part) {
+                (Number(name), Some(part)) if self.slots().filter(|(other, _)| other.name() == name).count() > 1 => {
+                    Some(format!("{}.{name}", part.name()))
+                }
+                (Number(name), _) => Some(name.to_owned()),
+                _ => None,
+            })
+            .collect()
+    }
+
     /// The law of numbers in their order.
     fn with_values(&self, values: &[f64]) -> Result<AnySolid, FfiError> {
+        solid_from_value(self.written(values)?)
+    }
+
+    /// The same in its written form.
+    pub(crate) fn written(&self, values: &[f64]) -> Result<Value, FfiError> {
         let wrong = || FfiError::WrongCount { law: self.law.clone(), expected: self.parameters(), found: values.len() };
         let least: usize = self.slots().map(|(slot, _)| slot.least()).sum();
         let spare = values.len().checked_sub(least).ok_or_else(wrong)?;
@@ -234,7 +267,7 @@ impl Resolved {
                 Terms(_) => take(2 + spare).chunks(2).map(term).collect(),
             });
         }
-        self.build(given)
+        Ok(self.build(given))
     }
 
     /// The law of numbers by name; a name that two parts have is written behind the part, `volumetric.exponent`.
@@ -264,11 +297,11 @@ impl Resolved {
         if let Some(name) = names.iter().find(|name| !self.slots().any(|slot| is_of(slot, name))) {
             return Err(wrong(name, "is unknown"));
         }
-        self.build(given)
+        solid_from_value(self.build(given))
     }
 
-    /// The law in its written form, read through the constructors that check it.
-    fn build(&self, given: Vec<Value>) -> Result<AnySolid, FfiError> {
+    /// The law in its written form.
+    fn build(&self, given: Vec<Value>) -> Value {
         let mut given = given.into_iter();
         let mut law = Map::new();
         for (name, slots, part) in &self.pieces {
@@ -282,9 +315,12 @@ impl Resolved {
                 Some(part) => drop(law.insert(part.name().into(), Value::Object(piece))),
             }
         }
-        solid_from_value(Value::Object(law))
+        Value::Object(law)
     }
 }
+
+#[cfg(feature = "history")]
+pub use crate::history::named::{history, history_with_names, state_length};
 
 /// A term of an Ogden law.
 fn term(pair: &[f64]) -> Value {

@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 use crate::FfiError;
 use crate::error::{check_finite, check_length};
 
-fn unreadable(what: &'static str, error: &serde_json::Error) -> FfiError {
+pub(crate) fn unreadable(what: &'static str, error: &serde_json::Error) -> FfiError {
     FfiError::Unreadable { what, message: error.to_string() }
 }
 
@@ -108,35 +108,55 @@ pub fn solid_from_fit(
     model: Option<&str>,
     volumetric: Option<AnyVolumetric>,
 ) -> Result<AnySolid, FfiError> {
-    const WHAT: &str = "summary of a fit";
-    let missing = |message: &str| FfiError::Unreadable { what: WHAT, message: message.to_owned() };
-    let summary: Value = serde_json::from_str(text).map_err(|error| unreadable(WHAT, &error))?;
-    let only = std::slice::from_ref(&summary);
-    let laws = summary["laws"].as_array().map_or(only, Vec::as_slice);
-    let wanted = model.or_else(|| summary["best_by_aicc"].as_str());
-    let entry = match wanted {
-        Some(wanted) => laws.iter().find(|law| law["model"] == wanted),
-        None => laws.first().filter(|_| laws.len() == 1),
-    };
-    let Some(entry) = entry else {
-        let names: Vec<_> = laws.iter().filter_map(|law| law["model"].as_str()).collect();
-        let given = wanted.unwrap_or("no model").to_owned();
-        return Err(FfiError::UnknownChoice { choice: "model of this fit", given, valid: names.join(", ") });
-    };
-    let name = entry["model"].as_str().ok_or_else(|| missing("there is no `model`"))?;
-    let parameters = entry["parameters"].as_array().ok_or_else(|| missing("there are no `parameters`"))?;
-    let value = |parameter: &Value| parameter["value"].as_f64();
-    let values: Option<Vec<f64>> = parameters.iter().map(value).collect();
-    let values = values.ok_or_else(|| missing("a parameter has no `value`"))?;
-    let model: AnyModel = name.parse()?;
+    let entry = Entry::of(text, model)?;
+    let model: AnyModel = entry.model.parse()?;
+    let values: Vec<f64> = entry.parameters.iter().map(|(_, value)| *value).collect();
     let law = match volumetric {
         Some(volumetric) => model.compressible(&values, volumetric)?,
         None => model.law(&values)?,
     };
     let given = || FfiError::UnknownChoice {
         choice: "law of this fit",
-        given: name.to_owned(),
+        given: entry.model,
         valid: "neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, polynomial:n, ogden:n".to_owned(),
     };
     law.solid().cloned().ok_or_else(given)
+}
+
+/// One law of the summary of a fit.
+pub(crate) struct Entry {
+    /// The name of its model.
+    pub(crate) model: String,
+    /// Its parameters in the order of the model; a name is empty where the summary has none.
+    pub(crate) parameters: Vec<(String, f64)>,
+}
+
+impl Entry {
+    /// The law of this model, or the best one.
+    pub(crate) fn of(text: &str, model: Option<&str>) -> Result<Self, FfiError> {
+        const WHAT: &str = "summary of a fit";
+        let missing = |message: &str| FfiError::Unreadable { what: WHAT, message: message.to_owned() };
+        let summary: Value = serde_json::from_str(text).map_err(|error| unreadable(WHAT, &error))?;
+        let only = std::slice::from_ref(&summary);
+        let laws = summary["laws"].as_array().map_or(only, Vec::as_slice);
+        let wanted = model.or_else(|| summary["best_by_aicc"].as_str());
+        let entry = match wanted {
+            Some(wanted) => laws.iter().find(|law| law["model"] == wanted),
+            None => laws.first().filter(|_| laws.len() == 1),
+        };
+        let Some(entry) = entry else {
+            let names: Vec<_> = laws.iter().filter_map(|law| law["model"].as_str()).collect();
+            let given = wanted.unwrap_or("no model").to_owned();
+            return Err(FfiError::UnknownChoice { choice: "model of this fit", given, valid: names.join(", ") });
+        };
+        let name = entry["model"].as_str().ok_or_else(|| missing("there is no `model`"))?;
+        let parameters = entry["parameters"].as_array().ok_or_else(|| missing("there are no `parameters`"))?;
+        let parameter = |parameter: &Value| {
+            let name = parameter["name"].as_str().unwrap_or_default().to_owned();
+            parameter["value"].as_f64().map(|value| (name, value))
+        };
+        let parameters: Option<Vec<(String, f64)>> = parameters.iter().map(parameter).collect();
+        let parameters = parameters.ok_or_else(|| missing("a parameter has no `value`"))?;
+        Ok(Self { model: name.to_owned(), parameters })
+    }
 }

@@ -94,8 +94,8 @@ impl PowerFlow {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BergstromBoyce<A, B> {
-    equilibrium: A,
-    overstress: B,
+    pub(crate) equilibrium: A,
+    pub(crate) overstress: B,
     flow: PowerFlow,
 }
 

@@ -43,7 +43,7 @@ use crate::{Evolution, InelasticError, flow};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DrivenGrowth<L> {
-    law: L,
+    pub(crate) elastic: L,
     rate: f64,
     bounds: [f64; 2],
     exponent: f64,
@@ -61,7 +61,7 @@ impl<L> DrivenGrowth<L> {
         check_bound(LAW, "bounds", bounds[0], "0 < ϑ⁻ < 1", 0.0 < bounds[0] && bounds[0] < 1.0)?;
         check_bound(LAW, "bounds", bounds[1], "1 < ϑ⁺", 1.0 < bounds[1])?;
         check_bound(LAW, "exponent", exponent, "1 ≤ γ", 1.0 <= exponent)?;
-        Ok(Self { law, rate, bounds, exponent })
+        Ok(Self { elastic: law, rate, bounds, exponent })
     }
 }
 
@@ -72,7 +72,7 @@ impl<L: Hyperelastic> Evolution<1, 1> for DrivenGrowth<L> {
 
     fn residual<T: Real>(&self, from: &[T; 1], gradient: &Rows<T>, unknowns: &[T; 1], dt: f64) -> [T; 1] {
         let growth = from[0] + unknowns[0];
-        let trace = flow::mandel(&self.law, &scaled(*gradient, growth.recip())).trace();
+        let trace = flow::mandel(&self.elastic, &scaled(*gradient, growth.recip())).trace();
         let [low, high] = self.bounds;
         let grows = T::zero().less_than(trace);
         let growing = (T::lit(high) - growth) * T::lit(1.0 / (high - 1.0));
@@ -87,12 +87,12 @@ impl<L: Hyperelastic> Evolution<1, 1> for DrivenGrowth<L> {
 
     fn first_piola<T: Real>(&self, gradient: &Rows<T>, state: &[T; 1]) -> Rows<T> {
         let growth = state[0];
-        let stress = self.law.first_piola(&DeformationGradient::trusted(scaled(*gradient, growth.recip())));
+        let stress = self.elastic.first_piola(&DeformationGradient::trusted(scaled(*gradient, growth.recip())));
         // det G/ϑ = ϑ².
         scaled(rows_of(&stress.0), growth * growth)
     }
 
     fn check(&self, gradient: &Rows<f64>, state: &[f64; 1]) -> Result<(), SolidsError> {
-        self.law.check(&DeformationGradient::trusted(scaled(*gradient, state[0].recip())))
+        self.elastic.check(&DeformationGradient::trusted(scaled(*gradient, state[0].recip())))
     }
 }

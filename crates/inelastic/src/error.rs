@@ -39,6 +39,18 @@ pub enum InelasticError {
         /// The bound, such as `0 < η`.
         bound: &'static str,
     },
+    /// A part of a law is an elastic law that cannot be that part.
+    #[error("{law}: the law of `{part}` is {found}; {needed} is needed")]
+    WrongSpring {
+        /// The law.
+        law: &'static str,
+        /// The part.
+        part: &'static str,
+        /// What its law is.
+        found: &'static str,
+        /// What it should be.
+        needed: &'static str,
+    },
     /// No state was found at the end of an increment.
     #[error(
         "the update did not converge beyond the share {share} of the increment, at F = {gradient:?}: after {iterations} \

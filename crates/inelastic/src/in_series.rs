@@ -42,8 +42,8 @@ use crate::{Evolution, InelasticError, flow};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct InSeries<A, B> {
-    first: A,
-    second: B,
+    pub(crate) first: A,
+    pub(crate) second: B,
     viscosity: f64,
     /// The largest component of ∂S/∂E of both at rest, Pa: what stresses are divided by.
     #[cfg_attr(feature = "serde", serde(skip))]

@@ -59,8 +59,8 @@ const LAW: &str = "J₂ plasticity with kinematic hardening";
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Kinematic<L, K> {
-    elastic: L,
-    back: K,
+    pub(crate) elastic: L,
+    pub(crate) back: K,
     hardening: Hardening,
     recovery: f64,
     viscosity: f64,

@@ -2,11 +2,15 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "any")]
+mod any;
 mod bergstrom_boyce;
+mod by_tangent;
 mod driven_growth;
 mod error;
 mod evolution;
 mod flow;
+mod given;
 mod grown;
 mod in_lanes;
 mod in_series;
@@ -21,10 +25,14 @@ mod viscoplastic;
 #[cfg(feature = "serde")]
 mod written;
 
+#[cfg(feature = "any")]
+pub use any::{AnyAdvanced, AnyInelastic, MOST_STATE};
 pub use bergstrom_boyce::{BergstromBoyce, PowerFlow};
+pub use by_tangent::ByTangent;
 pub use driven_growth::DrivenGrowth;
 pub use error::InelasticError;
 pub use evolution::Evolution;
+pub use given::{GivenGrowth, Thermal};
 pub use grown::{Grown, ThermalExpansion};
 pub use in_lanes::advance_in_lanes;
 pub use in_series::InSeries;

@@ -48,7 +48,7 @@ use crate::{Evolution, InelasticError};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Mullins<L> {
-    law: L,
+    pub(crate) elastic: L,
     softening: f64,
     energy: f64,
     share: f64,
@@ -65,7 +65,7 @@ impl<L> Mullins<L> {
         check_bound(LAW, "softening", softening, "1 ≤ r", 1.0 <= softening)?;
         check_bound(LAW, "energy", energy, "0 < m", 0.0 < energy)?;
         check_bound(LAW, "share", share, "0 ≤ β", 0.0 <= share)?;
-        Ok(Self { law, softening, energy, share })
+        Ok(Self { elastic: law, softening, energy, share })
     }
 }
 
@@ -97,12 +97,12 @@ impl<L: Hyperelastic> Evolution<1, 0> for Mullins<L> {
     }
 
     fn updated<T: Real>(&self, from: &[T; 1], gradient: &Rows<T>, _unknowns: &[T; 0], _dt: f64) -> [T; 1] {
-        let energy = self.law.energy(&DeformationGradient::trusted(*gradient));
+        let energy = self.elastic.energy(&DeformationGradient::trusted(*gradient));
         [T::select(from[0].less_than(energy), energy, from[0])]
     }
 
     fn first_piola<T: Real>(&self, gradient: &Rows<T>, state: &[T; 1]) -> Rows<T> {
-        let (energy, stress) = self.law.energy_and_first_piola(&DeformationGradient::trusted(*gradient));
+        let (energy, stress) = self.elastic.energy_and_first_piola(&DeformationGradient::trusted(*gradient));
         let below = state[0] - energy;
         // On the primary path the softening is 1, and so is it along its derivative.
         let unloaded = T::zero().less_than(below);
@@ -115,6 +115,6 @@ impl<L: Hyperelastic> Evolution<1, 0> for Mullins<L> {
     }
 
     fn check(&self, gradient: &Rows<f64>, _state: &[f64; 1]) -> Result<(), SolidsError> {
-        self.law.check(&DeformationGradient::trusted(*gradient))
+        self.elastic.check(&DeformationGradient::trusted(*gradient))
     }
 }

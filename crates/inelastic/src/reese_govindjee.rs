@@ -39,8 +39,8 @@ use crate::{Evolution, InelasticError, flow};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReeseGovindjee<A, B> {
-    equilibrium: A,
-    overstress: B,
+    pub(crate) equilibrium: A,
+    pub(crate) overstress: B,
     viscosity: f64,
     /// 1/ζ.
     bulk_fluidity: f64,

@@ -101,7 +101,7 @@ impl Hardening {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Viscoplastic<L> {
-    elastic: L,
+    pub(crate) elastic: L,
     hardening: Hardening,
     viscosity: f64,
 }

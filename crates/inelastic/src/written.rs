@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer};
 
 use crate::{
     BergstromBoyce, DrivenGrowth, Grown, Hardening, InSeries, InelasticError, Kinematic, Mullins, PowerFlow,
-    ReeseGovindjee, Viscoplastic,
+    ReeseGovindjee, Thermal, ThermalExpansion, Viscoplastic,
 };
 
 /// Reads the fields of a law and makes it of them.
@@ -35,12 +35,13 @@ validated! {
     ReeseGovindjee [A, B] { equilibrium: A, overstress: B, viscosity: f64, bulk_fluidity: f64 }
         Self::new(equilibrium, overstress, viscosity).and_then(|law| law.with_bulk_fluidity(bulk_fluidity));
     InSeries [A, B] { first: A, second: B, viscosity: f64 } Self::new(first, second, viscosity);
-    Mullins [L] { law: L, softening: f64, energy: f64, share: f64 } Self::new(law, softening, energy, share);
-    DrivenGrowth [L] { law: L, rate: f64, bounds: [f64; 2], exponent: f64 } Self::new(law, rate, bounds, exponent);
+    Mullins [L] { elastic: L, softening: f64, energy: f64, share: f64 } Self::new(elastic, softening, energy, share);
+    DrivenGrowth [L] { elastic: L, rate: f64, bounds: [f64; 2], exponent: f64 } Self::new(elastic, rate, bounds, exponent);
     Grown [L] { law: L, growth: [[f64; 3]; 3] } Self::new(law, &from_rows(growth));
     Hardening [] { yield_stress: f64, linear: f64, saturation: f64, saturation_exponent: f64 }
         Self { yield_stress, linear, saturation, saturation_exponent }.checked();
     Kinematic [L, K] { elastic: L, back: K, hardening: Hardening, recovery: f64, viscosity: f64 }
         Self::new(elastic, back, hardening, recovery, viscosity);
+    Thermal [L] { elastic: L, expansion: ThermalExpansion } Self::new(elastic, expansion);
     Viscoplastic [L] { elastic: L, hardening: Hardening, viscosity: f64 } Self::new(elastic, hardening, viscosity);
 }

@@ -76,6 +76,7 @@
 //! | homogeneous specimens, and checks of laws | [`specimens`] | `specimens` |
 //! | laws of one's own by their energy; sums of laws | [`laws`] | `laws` |
 //! | solids with internal variables | [`inelastic`] | `inelastic` |
+//! | any of them, chosen at run time | [`inelastic`], type `AnyInelastic` | `any-inelastic` |
 //! | laws of fluids | [`fluids`] | `fluids` |
 //! | viscometric flows and their inversion | [`viscometry`] | `viscometry` |
 //! | exact solutions of nonlinear elasticity | [`solutions`] | `solutions` |

@@ -7,6 +7,8 @@
 mod arrays;
 mod fits;
 mod fluids;
+#[cfg(feature = "history")]
+mod histories;
 #[cfg(feature = "scenes")]
 mod scenes;
 mod solids;
@@ -20,6 +22,9 @@ mod _native {
     use crate::fits::{fit_fluid, fit_solid};
     #[pymodule_export]
     use crate::fluids::Fluid;
+    #[cfg(feature = "history")]
+    #[pymodule_export]
+    use crate::histories::History;
     #[cfg(feature = "scenes")]
     #[pymodule_export]
     use crate::scenes::run_scene;

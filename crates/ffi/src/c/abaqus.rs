@@ -12,7 +12,11 @@ use crate::{FfiError, abaqus};
 ///
 /// # Safety
 /// See the [module](super).
-unsafe fn padded<'a>(argument: &'static str, text: *const c_char, length: usize) -> Result<&'a str, FfiError> {
+pub(super) unsafe fn padded<'a>(
+    argument: &'static str,
+    text: *const c_char,
+    length: usize,
+) -> Result<&'a str, FfiError> {
     // SAFETY: characters are bytes; as the caller promises.
     let bytes = unsafe { slice(argument, text.cast::<u8>(), length) }?;
     let text = core::str::from_utf8(bytes);

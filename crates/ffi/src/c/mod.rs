@@ -10,6 +10,8 @@
 
 pub mod abaqus;
 pub mod fluids;
+#[cfg(feature = "history")]
+pub mod history;
 mod memory;
 pub mod solids;
 pub mod status;

@@ -41,6 +41,10 @@ impl FfiError {
             Self::NotFinite { .. } => PiolaStatus::NotFinite,
             Self::UnknownChoice { .. } | Self::Components { .. } => PiolaStatus::UnknownChoice,
             Self::BadPoints { .. } => PiolaStatus::BadPoints,
+            #[cfg(feature = "history")]
+            Self::BadIncrements { .. } => PiolaStatus::BadPoints,
+            #[cfg(feature = "history")]
+            Self::Inelastic(_) => PiolaStatus::BadLaw,
             Self::Viscometry(_) | Self::Fluids(_) => PiolaStatus::BadFlow,
             Self::NotText { .. }
             | Self::WrongCount { .. }

@@ -15,6 +15,20 @@ fn a_program_in_c_gets_stresses_tangents_flows_and_messages() {
     assert!(text.ends_with("all 19 checks passed\n"), "{text}");
 }
 
+#[cfg(feature = "history")]
+#[test]
+fn a_program_in_c_advances_laws_with_history() {
+    if !has("cc") {
+        return;
+    }
+    let folder = crate_folder();
+    let include = format!("-I{}", folder.join("include").display());
+    let flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-pedantic", &include];
+    let program = compiled("cc", "c_history", &flags, &[folder.join("tests/c/history.c")]);
+    let text = printed(&program, &[]);
+    assert!(text.ends_with("all 14 checks passed\n"), "{text}");
+}
+
 #[test]
 fn the_program_of_the_guide_prints_what_it_says() {
     if !has("cc") {

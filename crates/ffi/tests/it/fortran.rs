@@ -3,6 +3,7 @@
 use nalgebra::Matrix3;
 use piola::continuum::DeformationGradient;
 use piola::solids::{AnySolid, Hyperelastic, MooneyRivlin};
+use piola::tensor::PairSymmetric;
 use piola::tensor::voigt::{Abaqus, StressVector};
 use piola_ffi::abaqus::{umat, vumat};
 use piola_ffi::named::solid;
@@ -82,12 +83,9 @@ fn compare_point(law: &AnySolid, shear: usize, numbers: &[f64]) {
     let (first_piola, tangent) = law.first_piola_and_tangent(&deformation);
     let cauchy = first_piola.kirchhoff(&deformation).cauchy(&deformation);
     let expected = StressVector::<f64, Abaqus>::of(&cauchy.0).components;
-    let second = first_piola.second_piola(&deformation);
-    let material = piola::continuum::stress::tangents::MaterialTangent::<f64>(
-        tangent.material(&second, &deformation).0.major_part(),
-    );
-    let jaumann = material.truesdell(&deformation).jaumann(&cauchy);
-    let square = piola::tensor::voigt::StiffnessMatrix::<f64, Abaqus>::of(&jaumann.0).entries;
+    let jaumann = tangent.spatial(&cauchy, &deformation).jaumann(&cauchy);
+    let upper = piola::tensor::MajorSymmetric::from_slots(&jaumann.0.components);
+    let square = piola::tensor::voigt::StiffnessMatrix::<f64, Abaqus>::of(&upper).entries;
     let has_no_logarithm = matches!(law, AnySolid::MooneyRivlin(_));
     for (row, entries) in square.iter().enumerate().take(count) {
         let scale = entries.iter().fold(1.0_f64, |largest, x| largest.max(x.abs()));

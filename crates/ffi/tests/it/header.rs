@@ -7,7 +7,7 @@ fn the_header_is_that_of_the_sources() {
     let folder = crate_folder();
     let config = cbindgen::Config::from_file(folder.join("cbindgen.toml")).unwrap();
     let mut builder = cbindgen::Builder::new().with_config(config);
-    for file in ["status.rs", "solids.rs", "fluids.rs", "abaqus.rs"] {
+    for file in ["status.rs", "solids.rs", "fluids.rs", "abaqus.rs", "history.rs"] {
         builder = builder.with_src(folder.join("src/c").join(file));
     }
     let mut made = Vec::new();

@@ -9,6 +9,10 @@ mod c_program;
 mod flows;
 mod fortran;
 mod header;
+#[cfg(feature = "history")]
+mod history;
+#[cfg(feature = "history")]
+mod history_abaqus;
 mod named;
 mod points;
 mod programs;

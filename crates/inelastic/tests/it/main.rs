@@ -1,6 +1,8 @@
 //! The tests of `piola-inelastic`.
 
 mod alloc;
+mod by_tangent;
+mod given;
 mod grown;
 mod in_series;
 mod kinematic;

@@ -104,6 +104,7 @@ fn newtons_method_for_free_sides_converges_quadratically_with_the_consistent_tan
     check_quadratic("viscoplastic", &residuals(&viscoplastic(0.5)?)?);
     check_quadratic("plastic", &residuals(&viscoplastic(0.0)?)?);
     check_quadratic("kinematic", &residuals(&kinematic(0.0)?)?);
+    check_quadratic("kinematic, viscous", &residuals(&kinematic(0.5)?)?);
     check_quadratic("driven growth", &residuals(&driven_growth()?)?);
     check_quadratic("Mullins", &residuals(&mullins()?)?);
     Ok(())

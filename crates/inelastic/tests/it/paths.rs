@@ -20,9 +20,18 @@ fn deformation(value: &Value) -> Result<DeformationGradient, Box<dyn Error>> {
     Ok(DeformationGradient::from_rows(core::array::from_fn(|i| core::array::from_fn(|j| rows[i][j])))?)
 }
 
-/// Follows the legs of a law. The first starts with the state of the body as made, at the deformation of the reference data.
+/// Follows the legs of a law in `inelastic_paths.json`.
 fn follow<L: Evolution<S, X>, const S: usize, const X: usize>(name: &str, law: &L) -> Result<usize, Box<dyn Error>> {
-    let golden = golden::load("inelastic_paths");
+    follow_in("inelastic_paths", name, law)
+}
+
+/// Follows the legs of a law. The first starts with the state of the body as made, at the deformation of the reference data.
+fn follow_in<L: Evolution<S, X>, const S: usize, const X: usize>(
+    file: &str,
+    name: &str,
+    law: &L,
+) -> Result<usize, Box<dyn Error>> {
+    let golden = golden::load(file);
     let legs = golden.cases.iter().filter(|case| text(&case["law"]) == name);
     let control = StepControl::new(1e-12)?;
     let stated = Tol::stated(1e-10, "the error of an increment is controlled to 1e-12");
@@ -97,6 +106,14 @@ fn reese_govindjee_stress_equals_the_reference() -> Fallible {
 #[test]
 fn viscoplastic_stress_equals_the_reference() -> Fallible {
     assert_eq!(follow("viscoplastic", &viscoplastic(0.5)?)?, 1);
+    Ok(())
+}
+
+/// To and fro: elastic up to the yield surface, flow, back through the elastic domain, flow in the other sense.
+#[test]
+fn kinematic_stress_and_state_equal_the_reference() -> Fallible {
+    assert_eq!(follow_in("kinematic_paths", "kinematic", &kinematic(0.0)?)?, 4);
+    assert_eq!(follow_in("kinematic_paths", "kinematic_viscous", &kinematic(0.5)?)?, 1);
     Ok(())
 }
 

@@ -5,8 +5,8 @@ use core::fmt::Debug;
 
 use piola_continuum::DeformationGradient;
 use piola_inelastic::{
-    BergstromBoyce, DrivenGrowth, Grown, InSeries, InelasticPoint, Kinematic, Mullins, ReeseGovindjee, StepControl,
-    Viscoplastic,
+    BergstromBoyce, DrivenGrowth, GivenGrowth, Grown, InSeries, InelasticPoint, Kinematic, Mullins, ReeseGovindjee,
+    StepControl, Thermal, ThermalExpansion, Viscoplastic,
 };
 use piola_solids::{Hencky, NeoHookeanCiarlet};
 use serde::Serialize;
@@ -54,6 +54,10 @@ fn laws_written_and_read_again_equal_themselves_and_bad_ones_are_refused_by_name
     assert!(refused::<InSeries<Spring, Spring>>(&text, ["0.25", "-0.25"]).contains("0 ≤ η"));
     let text = again(&DrivenGrowth::new(spring, 0.5, [0.5, 2.0], 3.0)?)?;
     assert!(refused::<DrivenGrowth<Spring>>(&text, ["[0.5,2.0]", "[0.5,0.75]"]).contains("1 < ϑ⁺"));
+    let text = again(&GivenGrowth::new(spring))?;
+    assert!(refused::<GivenGrowth<Spring>>(&text, ["\"elastic\"", "\"law\""]).contains("unknown field"));
+    let text = again(&Thermal::new(spring, ThermalExpansion { coefficient: 0.5, reference_temperature: 300.0 })?)?;
+    assert!(refused::<Thermal<Spring>>(&text, ["\"coefficient\"", "\"expansivity\""]).contains("expansivity"));
     let text = again(&Grown::new(spring, &nalgebra::Matrix3::from_diagonal(&[1.5, 1.0, 1.25].into()))?)?;
     assert!(refused::<Grown<Spring>>(&text, ["[1.5,", "[-1.5,"]).contains("0 < det G"));
     Ok(())

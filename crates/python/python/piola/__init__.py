@@ -22,7 +22,7 @@ import numpy as np
 from . import _native
 
 __version__: str = _native.VERSION
-__all__ = ["Couette", "Fluid", "Pipe", "Run", "Solid", "fit_fluid", "fit_solid", "run_scene"]
+__all__ = ["Couette", "Fluid", "History", "Pipe", "Run", "Solid", "fit_fluid", "fit_solid", "run_scene"]
 
 
 def _written(kind: str, name: str, parameters: Mapping[str, Any]) -> str:
@@ -246,6 +246,159 @@ class Solid:
 def _tangent_shape(measure: str) -> tuple[int, ...]:
     _choice("measure", measure, ("first_piola", "material", "truesdell", "jaumann"))
     return (3, 3, 3, 3) if measure == "first_piola" else (6, 6)
+
+
+class History:
+    """A law with history, by its name and its parameters.
+
+    ===================== ==================================================================== =================================
+    law                   parameters                                                           internal variables
+    ===================== ==================================================================== =================================
+    ``bergstrom_boyce``   equilibrium, overstress, flow: {"rate": ..., "stress": ...,          9: F_i by rows
+                          "stress_exponent": ..., "stretch_exponent": ..., "perturbation": ...}
+    ``reese_govindjee``   equilibrium, overstress, viscosity, bulk_fluidity                    9: F_i by rows
+    ``in_series``         first, second, viscosity                                             9: F_i by rows
+    ``viscoplastic``      elastic, hardening: {"yield_stress": ..., "linear": ...,             10: F_i by rows, accumulated strain
+                          "saturation": ..., "saturation_exponent": ...}, viscosity
+    ``kinematic``         elastic, back, hardening, recovery, viscosity                        19: the same, F_k by rows
+    ``mullins``           elastic, softening, energy, share                                    1: the largest energy
+    ``driven_growth``     elastic, rate, bounds: [...], exponent                               1: the stretch of growth
+    ``given_growth``      elastic                                                              9: G by rows, which you write
+    ``thermal``           elastic, expansion: {"coefficient": ..., "reference_temperature":    1: the temperature, which you write
+                          ...}
+    ===================== ==================================================================== =================================
+
+    Elastic parts are dictionaries with the key ``law`` and the parameters of a :class:`Solid`. Those that flow must be isotropic.
+
+    >>> spring = {"law": "neo_hookean", "shear_modulus": 1.0, "volumetric": {"law": "simo_taylor", "bulk_modulus": 2.0}}
+    >>> law = History("reese_govindjee", equilibrium=spring, overstress=spring, viscosity=0.5, bulk_fluidity=0.0)
+    >>> still, shear = np.eye(3), np.array([[1.0, 0.3, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    >>> stress, state = law.advance(still, shear, 1e-6)            # at once: 2 mu k
+    >>> stress, state = law.advance(shear, shear, 1e3, state)      # held: mu k
+    >>> round(float(stress[0, 1]), 3)
+    0.3
+    """
+
+    __slots__ = ("_history",)
+
+    def __init__(self, law: str, **parameters: Any) -> None:
+        self._history = _native.History(_written("law", law, parameters))
+
+    @classmethod
+    def _of(cls, history: Any) -> History:
+        made = cls.__new__(cls)
+        made._history = history
+        return made
+
+    @classmethod
+    def from_json(cls, text: str) -> History:
+        """The law of its written form, such as ``history.to_json()`` gives."""
+        return cls._of(_native.History(text))
+
+    @classmethod
+    def from_fit(cls, summary: str, model: str | None = None) -> History:
+        """The law of a fit of laws with history, from the text of the ``summary.json`` that ``piola fit`` writes.
+
+        ``model`` chooses one of its laws, such as ``reese-govindjee``; without it the best by AICc is taken.
+        """
+        return cls._of(_native.History.from_fit(summary, model))
+
+    @classmethod
+    def from_values(cls, name: str, values: Sequence[float]) -> History:
+        """The law of a name with its parts and numbers in their order: ``from_values("mullins-hencky-lame", [mu, lam, r, m, beta])``."""
+        return cls._of(_native.History.from_values(name, [float(value) for value in values]))
+
+    def to_json(self) -> str:
+        """The written form of the law."""
+        return self._history.json()
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """The law and its parameters by name."""
+        return _json.loads(self._history.json())
+
+    def __repr__(self) -> str:
+        return f"History({self.to_json()})"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, History) and self.parameters == other.parameters
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, tuple[str]]:
+        return (History.from_json, (self.to_json(),))
+
+    @property
+    def state_length(self) -> int:
+        """The number S of internal variables."""
+        return self._history.state_length()
+
+    def initial_states(self, shape: int | tuple[int, ...] = (), *, layout: str = "rows") -> np.ndarray:
+        """States of points of the body as it was made: shape (..., S), or (S, ...) with ``layout="components"``."""
+        shape = (shape,) if isinstance(shape, int) else tuple(shape)
+        states = np.empty(self._state_shape(shape, layout))
+        self._history.initial_states(layout, states.reshape(-1))
+        return states
+
+    def _state_shape(self, shape: tuple[int, ...], layout: str) -> tuple[int, ...]:
+        _choice("layout", layout, ("rows", "components"))
+        return (*shape, self.state_length) if layout == "rows" else (self.state_length, *shape)
+
+    def advance(
+        self,
+        before: Any,
+        after: Any,
+        dt: float,
+        state: Any = None,
+        measure: str = "cauchy",
+        *,
+        tangent: str | None = None,
+        voigt: str = "piola",
+        tolerance: float | None = None,
+        layout: str = "rows",
+        out: tuple[np.ndarray | None, ...] | None = None,
+        bad_points: str = "raise",
+    ) -> tuple[np.ndarray, ...]:
+        """One increment from deformation gradients ``before`` to ``after``, shapes (..., 3, 3), in ``dt`` seconds.
+
+        Returns the stress and the new state; with ``tangent`` the stress, the consistent tangent and the new state. ``measure`` and
+        ``tangent`` are as in :meth:`Solid.stress` and :meth:`Solid.tangent`; tangents of 6 by 6 numbers are not symmetric in general.
+
+        ``state`` is that of :meth:`initial_states` where it is left out. It stays as it is. ``out`` takes arrays of yours for what is
+        returned, each an array or ``None``; that of the new state must be other memory than ``state``. ``tolerance`` bounds the
+        estimated error of the internal variables; without it the increment is one implicit step.
+
+        Where the update fails the point is bad: a ``ValueError``, or NaN in stress and tangent with ``bad_points="nan"``; its new state is
+        the last admissible one. All other points are advanced in either case.
+        """
+        after = _array("after", after, (3, 3))
+        before = _array("before", np.broadcast_to(np.asarray(before, dtype=np.float64), after.shape), (3, 3))
+        shape = after.shape[:-2]
+        states = self._state_shape(shape, layout)
+        state = self.initial_states(shape, layout=layout) if state is None else _array("state", state)
+        if state.shape != states:
+            raise ValueError(f"`state` has shape {state.shape}; {states} is needed")
+        wanted = 2 if tangent is None else 3
+        given: tuple[np.ndarray | None, ...] = (None,) * wanted if out is None else tuple(out)
+        if len(given) != wanted:
+            raise ValueError(f"`out` has {len(given)} arrays; {wanted} are returned")
+        stress, new = _output(given[0], after.shape), _output(given[-1], states)
+        if np.may_share_memory(state, new):
+            raise ValueError("`out` of the new state must be other memory than `state`")
+        square = None if tangent is None else _output(given[1], shape + _tangent_shape(tangent))
+        _choice("bad_points", bad_points, ("raise", "nan"))
+        message = self._history.advance(
+            (measure, tangent or "first_piola", voigt, layout),
+            (before.reshape(-1), after.reshape(-1)),
+            (float(dt), None if tolerance is None else float(tolerance)),
+            state.reshape(-1),
+            new.reshape(-1),
+            stress.reshape(-1),
+            None if square is None else square.reshape(-1),
+        )
+        if message is not None and bad_points == "raise":
+            raise ValueError(message)
+        return (stress, new) if square is None else (stress, square, new)
 
 
 class Fluid:

@@ -89,3 +89,78 @@ pub fn material_tangent<T: Real>(inverse: Rows<T>, stress: &Symmetric<T>, tangen
     }
     result
 }
+
+/// c/J of ∂P/∂F: `F_jA F_lB A_iAkB/J − δ_ik T_jl` at i ≤ j, the mean over the exchange of k and l.
+///
+/// Its parts are functions: closures are not inlined into lanes, which doubles the time.
+#[cfg_attr(not(debug_assertions), inline(always))]
+#[must_use]
+pub fn spatial_tangent<T: Real>(f: Rows<T>, volume: T, stress: &Symmetric<T>, tangent: &[[T; 9]; 9]) -> Slots<T> {
+    let (scale, half) = (volume.recip(), T::lit(0.5));
+    let g = [scaled(f[0], scale), scaled(f[1], scale), scaled(f[2], scale)];
+    let [x, y, z] = [block(&g, tangent, 0, half), block(&g, tangent, 1, half), block(&g, tangent, 2, half)];
+    let mut rows = [
+        half_contracted(f[0], [&x[0], &x[1], &x[2]]),
+        half_contracted(f[1], [&y[0], &y[1], &y[2]]),
+        half_contracted(f[2], [&z[0], &z[1], &z[2]]),
+        half_contracted(f[1], [&x[0], &x[1], &x[2]]),
+        half_contracted(f[2], [&y[0], &y[1], &y[2]]),
+        half_contracted(f[2], [&x[0], &x[1], &x[2]]),
+    ];
+    let [t11, t22, t33, t12, t23, t13] = stress.components;
+    let [h22, h33, h12, h23, h13] = [half * t22, half * t33, half * t12, half * t23, half * t13];
+    // ½ (`δ_ik T_jl + δ_il T_jk`).
+    rows[0][0] -= t11;
+    rows[0][3] -= h12;
+    rows[0][5] -= h13;
+    rows[1][1] -= t22;
+    rows[1][3] -= h12;
+    rows[1][4] -= h23;
+    rows[2][2] -= t33;
+    rows[2][4] -= h23;
+    rows[2][5] -= h13;
+    rows[3][0] -= t12;
+    rows[3][3] -= h22;
+    rows[3][5] -= h23;
+    rows[4][1] -= t23;
+    rows[4][3] -= h13;
+    rows[4][4] -= h33;
+    rows[5][0] -= t13;
+    rows[5][3] -= h23;
+    rows[5][5] -= h33;
+    rows
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn scaled<T: Real>(row: [T; 3], scale: T) -> [T; 3] {
+    [row[0] * scale, row[1] * scale, row[2] * scale]
+}
+
+/// `A_iAkB F_lB` of row (i, A).
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn along<T: Real>(g: [T; 3], row: &[T; 9], k: usize) -> T {
+    g[0] * row[3 * k] + g[1] * row[3 * k + 1] + g[2] * row[3 * k + 2]
+}
+
+/// The same for the six pairs (k, l).
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn contracted<T: Real>(g: &Rows<T>, row: &[T; 9], half: T) -> [T; 6] {
+    [
+        along(g[0], row, 0),
+        along(g[1], row, 1),
+        along(g[2], row, 2),
+        half * (along(g[1], row, 0) + along(g[0], row, 1)),
+        half * (along(g[2], row, 1) + along(g[1], row, 2)),
+        half * (along(g[2], row, 0) + along(g[0], row, 2)),
+    ]
+}
+
+/// The same for the three rows of i.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn block<T: Real>(g: &Rows<T>, tangent: &[[T; 9]; 9], i: usize, half: T) -> [[T; 6]; 3] {
+    [
+        contracted(g, &tangent[3 * i], half),
+        contracted(g, &tangent[3 * i + 1], half),
+        contracted(g, &tangent[3 * i + 2], half),
+    ]
+}

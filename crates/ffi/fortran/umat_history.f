@@ -1,0 +1,75 @@
+C     Laws with history of Piola as a user material of Abaqus/Standard.
+C     The library is built with its feature `history`.
+C
+C     *MATERIAL, NAME=REESE_GOVINDJEE-NEO_HOOKEAN-LAME-HENCKY-LAME
+C     *USER MATERIAL, CONSTANTS=6, UNSYMM
+C     1.0E6, 1.0E9, 2.0E6, 1.0E9, 5.0E5, 0.0
+C     *DEPVAR
+C     9
+C
+C     The name is that of a law and of its elastic parts, with their
+C     parameters as constants, or that of a file in the folder
+C     PIOLA_MATERIALS, without constants. DEPVAR is the number of its
+C     internal variables, as piola_history_state_length_of gives it.
+C     A state of zeros is that of the body as it was made.
+C     STRESS is the Cauchy stress and DDSDDE the consistent tangent of
+C     Jaumann's rate of the Kirchhoff stress over J: 11, 22, 33, 12,
+C     13, 23. It is not symmetric in general.
+C     Solid elements, plane strain and axisymmetric elements (NDI = 3).
+C
+C     An increment whose update fails asks for a smaller one, and STATEV
+C     stays as it was. What else is wrong is printed, and the analysis
+C     ends.
+C
+      SUBROUTINE UMAT(STRESS,STATEV,DDSDDE,SSE,SPD,SCD,
+     1 RPL,DDSDDT,DRPLDE,DRPLDT,
+     2 STRAN,DSTRAN,TIME,DTIME,TEMP,DTEMP,PREDEF,DPRED,CMNAME,
+     3 NDI,NSHR,NTENS,NSTATV,PROPS,NPROPS,COORDS,DROT,PNEWDT,
+     4 CELENT,DFGRD0,DFGRD1,NOEL,NPT,LAYER,KSPT,JSTEP,KINC)
+      USE, INTRINSIC :: ISO_C_BINDING
+      INCLUDE 'ABA_PARAM.INC'
+      CHARACTER*80 CMNAME
+      DIMENSION STRESS(NTENS),STATEV(NSTATV),
+     1 DDSDDE(NTENS,NTENS),DDSDDT(NTENS),DRPLDE(NTENS),
+     2 STRAN(NTENS),DSTRAN(NTENS),TIME(2),PREDEF(1),DPRED(1),
+     3 PROPS(NPROPS),COORDS(3),DROT(3,3),DFGRD0(3,3),DFGRD1(3,3),
+     4 JSTEP(4)
+      INTERFACE
+        INTEGER(C_INT) FUNCTION PIOLA_HISTORY_UMAT(NAME,NAMELEN,
+     1   PROPS,NPROPS,NDI,NSHR,F0,F1,DT,STATE,NSTATE,STRESS,TANGENT)
+     2   BIND(C,NAME='piola_history_umat')
+          USE, INTRINSIC :: ISO_C_BINDING
+          IMPLICIT NONE
+          CHARACTER(KIND=C_CHAR), INTENT(IN) :: NAME(*)
+          INTEGER(C_SIZE_T), VALUE :: NAMELEN, NPROPS, NDI, NSHR
+          INTEGER(C_SIZE_T), VALUE :: NSTATE
+          REAL(C_DOUBLE), INTENT(IN) :: PROPS(*), F0(*), F1(*)
+          REAL(C_DOUBLE), VALUE :: DT
+          REAL(C_DOUBLE), INTENT(INOUT) :: STATE(*)
+          REAL(C_DOUBLE), INTENT(INOUT) :: STRESS(*), TANGENT(*)
+        END FUNCTION
+        INTEGER(C_SIZE_T) FUNCTION PIOLA_MESSAGE(TEXT,LENGTH)
+     1   BIND(C,NAME='piola_last_error_padded')
+          USE, INTRINSIC :: ISO_C_BINDING
+          IMPLICIT NONE
+          CHARACTER(KIND=C_CHAR), INTENT(OUT) :: TEXT(*)
+          INTEGER(C_SIZE_T), VALUE :: LENGTH
+        END FUNCTION
+      END INTERFACE
+      INTEGER(C_INT) ISTATUS
+      INTEGER(C_SIZE_T) LENGTH
+      CHARACTER(LEN=480) MESSAGE
+      ISTATUS = PIOLA_HISTORY_UMAT(CMNAME, INT(LEN(CMNAME),C_SIZE_T),
+     1 PROPS, INT(NPROPS,C_SIZE_T), INT(NDI,C_SIZE_T),
+     2 INT(NSHR,C_SIZE_T), DFGRD0, DFGRD1, DTIME,
+     3 STATEV, INT(NSTATV,C_SIZE_T), STRESS, DDSDDE)
+      IF (ISTATUS .EQ. 0) RETURN
+      IF (ISTATUS .EQ. 6) THEN
+        PNEWDT = 0.25D0
+        RETURN
+      END IF
+      LENGTH = PIOLA_MESSAGE(MESSAGE, INT(LEN(MESSAGE),C_SIZE_T))
+      WRITE(*,*) 'UMAT, element ', NOEL, ', point ', NPT, ': ',
+     1 TRIM(MESSAGE)
+      CALL XIT
+      END
