@@ -36,9 +36,38 @@ pub(super) fn words(flow: NonlinearFlow) -> String {
     }
 }
 
+/// A curve through the drives of a flow.
+pub(super) struct Curve {
+    /// (drive, answer), evenly in the logarithms of the drives, as far as the fluid has answers.
+    pub(super) points: Vec<[f64; 2]>,
+    /// Why there are no more; none where the curve is whole.
+    stops: Option<FitError>,
+}
+
+impl Curve {
+    /// "the curve of steady shear, N1 stops after 3.2 1/s: …"; none where it is whole.
+    pub(super) fn in_words(&self, flow: NonlinearFlow) -> Option<String> {
+        let (flow_in_words, why) = (words(flow), self.stops.as_ref()?);
+        Some(match self.points.last() {
+            Some([last, _]) => {
+                format!("the curve of {flow_in_words} stops after {last:.4} {}: {why}", unit_of_drive(flow))
+            }
+            None => format!("no curve of {flow_in_words}: {why}"),
+        })
+    }
+}
+
+/// The unit of what changes in a flow: a rate, or in start-up the time.
+pub(super) const fn unit_of_drive(flow: NonlinearFlow) -> &'static str {
+    match flow {
+        NonlinearFlow::SteadyShear(_) | NonlinearFlow::SteadyExtension(_) => "1/s",
+        _ => "s",
+    }
+}
+
 impl FittedNonlinear {
-    /// Points of a curve through the drives of a flow, evenly in their logarithms: (drive, answer).
-    pub(super) fn curve(&self, model: NonlinearModel, set: &NonlinearData) -> Result<Vec<[f64; 2]>, FitError> {
+    /// The curve of a flow. A fluid may have answers up to some drive only, as in an extension that is too fast for it.
+    pub(super) fn curve(&self, model: NonlinearModel, set: &NonlinearData) -> Curve {
         const POINTS: usize = 60;
         let drives: Vec<f64> = match set.rows() {
             [first, .., last] if first[0] < last[0] => {
@@ -48,16 +77,26 @@ impl FittedNonlinear {
             rows => rows.iter().map(|row| row[0]).take(1).collect(),
         };
         let values: Vec<f64> = self.fit.parameters.iter().map(|parameter| parameter.value).collect();
-        let answers = model.answers(&self.modes, &values, set.flow(), &drives)?;
-        Ok(drives.into_iter().zip(answers).map(|(drive, answer)| [drive, answer]).collect())
+        let answers = |count: usize| model.answers(&self.modes, &values, set.flow(), &drives[..count]);
+        let (found, stops) = match answers(drives.len()) {
+            Ok(all) => (all, None),
+            Err(error) => (longest(drives.len(), answers), Some(error)),
+        };
+        Curve { points: drives.into_iter().zip(found).map(|(drive, answer)| [drive, answer]).collect(), stops }
     }
 }
 
-impl FittedNonlinear {
-    /// Why `predictions.csv` and the figure have no curve of a flow; none where they have one.
-    fn why_no_curve(&self, model: NonlinearModel, set: &NonlinearData) -> Option<String> {
-        self.curve(model, set).err().map(|error| error.to_string())
+/// The answers to as many of the first drives as have some, of `count` that have not.
+fn longest(count: usize, answers: impl Fn(usize) -> Result<Vec<f64>, FitError>) -> Vec<f64> {
+    let (mut best, mut fails) = (Vec::new(), count);
+    while best.len() + 1 < fails {
+        let middle = usize::midpoint(best.len(), fails);
+        match answers(middle) {
+            Ok(found) if found.len() == middle => best = found,
+            _ => fails = middle,
+        }
     }
+    best
 }
 
 impl NonlinearComparison {
@@ -72,7 +111,7 @@ impl NonlinearComparison {
             let fit = &found.fit;
             let flows = table.flows.iter().zip(&fit.residuals).map(|(set, residuals)| {
                 json!({ "flow": words(set.flow()), "rows": residuals.len(), "rms_residual": rms(residuals),
-                        "largest_residual": largest(residuals), "no_curve": found.why_no_curve(*model, set) })
+                        "largest_residual": largest(residuals), "no_curve": found.curve(*model, set).in_words(set.flow()) })
             });
             json!({
                 "fluid": model.name(),
@@ -155,8 +194,8 @@ impl NonlinearComparison {
                 let _ = writeln!(text, "{line}");
             }
             for set in &table.flows {
-                if let Some(why) = found.why_no_curve(fluid, set) {
-                    let _ = writeln!(text, "  no curve of {}: {why}", words(set.flow()));
+                if let Some(why) = found.curve(fluid, set).in_words(set.flow()) {
+                    let _ = writeln!(text, "  {why}");
                 }
             }
         }
@@ -174,7 +213,7 @@ impl NonlinearComparison {
         let mut predictions = String::from("fluid,flow,rate [1/s],time [s],stress [Pa]\n");
         for (fluid, found) in self.fits() {
             for set in &table.flows {
-                for [drive, answer] in found.curve(fluid, set).unwrap_or_default() {
+                for [drive, answer] in found.curve(fluid, set).points {
                     let _ = writeln!(predictions, "{fluid},{},{answer:?}", drives(set.flow(), drive));
                 }
             }
