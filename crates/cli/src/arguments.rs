@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+use piola_measured::MeasuredError;
+use piola_measured::fitting::Intervals;
 
 /// Mechanics from scenes: run, plan, check.
 #[derive(Debug, Parser)]
@@ -166,9 +168,8 @@ pub(crate) struct FitArguments {
     /// Write the stresses of every law up to this stretch, within the data or beyond, to predictions.csv.
     #[arg(long, value_name = "STRETCH")]
     pub(crate) to: Option<f64>,
-    /// Find intervals by profile likelihood: each parameter is moved and all others are fitted anew.
-    #[arg(long)]
-    pub(crate) profile: bool,
+    #[command(flatten)]
+    pub(crate) intervals: IntervalArguments,
     /// Write a material card of each law for a program: abaqus, ansys, calculix, febio or ls-dyna. Needs
     /// --bulk-modulus, but for a foam.
     #[arg(long = "card", value_name = "PROGRAM")]
@@ -188,6 +189,25 @@ pub(crate) struct FitArguments {
     /// Print JSON to standard output.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// How the intervals of parameters are found.
+#[derive(Debug, Args)]
+pub(crate) struct IntervalArguments {
+    /// How intervals are found: linear; profile, where each parameter is moved and all others are fitted anew; bootstrap or bootstrap:N,
+    /// where the law is fitted to N tables that it would have made with errors drawn from its residuals (1000 without N).
+    #[arg(long = "intervals", value_name = "KIND", default_value = "linear", conflicts_with = "profile")]
+    pub(crate) kind: String,
+    /// The same as --intervals profile.
+    #[arg(long)]
+    pub(crate) profile: bool,
+}
+
+impl IntervalArguments {
+    /// The kind.
+    pub(crate) fn kind(&self) -> Result<Intervals, MeasuredError> {
+        if self.profile { Ok(Intervals::Profile) } else { Ok(self.kind.parse()?) }
+    }
 }
 
 /// How viscometric measurements were made.
@@ -269,9 +289,8 @@ pub(crate) struct FitFlowArguments {
     /// Suppose errors of one size in all rows, instead of a part of each answer.
     #[arg(long)]
     pub(crate) equal_errors: bool,
-    /// Find intervals by profile likelihood: each parameter is moved and all others are fitted anew.
-    #[arg(long)]
-    pub(crate) profile: bool,
+    #[command(flatten)]
+    pub(crate) intervals: IntervalArguments,
 }
 
 #[derive(Debug, Args)]

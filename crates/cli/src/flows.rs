@@ -74,9 +74,7 @@ pub(crate) fn fit(arguments: &FitFlowArguments) -> Exit {
         if arguments.equal_errors {
             request.weighting = Weighting::Equal;
         }
-        if arguments.profile {
-            request.intervals = Intervals::Profile;
-        }
+        request.intervals = arguments.intervals.kind()?;
         let found = watched(&measured.name(), &interrupt, |watch| rheology::compare_until(&measured, &request, watch))?;
         Ok((measured, found))
     });
