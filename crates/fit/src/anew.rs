@@ -28,7 +28,7 @@ pub enum Change<'c> {
 
 /// What intervals follow from, besides fits made anew.
 #[derive(Clone, Copy, Debug)]
-pub struct Fitted<'f> {
+pub struct Anew<'f> {
     /// The fitted parameters.
     pub values: &'f [f64],
     /// Their bounds.
@@ -48,7 +48,7 @@ pub struct Fitted<'f> {
 /// The share of fits made anew that must succeed.
 const MOST_FAIL: f64 = 0.9;
 
-impl Fitted<'_> {
+impl Anew<'_> {
     /// The intervals of all parameters that are determined; none where intervals are linear. `fit` returns parameters and S of a
     /// changed fit.
     pub fn intervals(

@@ -9,10 +9,10 @@ use piola_measured::nonlinear::{
 };
 
 use crate::Exit;
-use crate::arguments::IntervalArguments;
 use crate::commands::refused;
 use crate::flows::{Results, finished, out, watched};
 use crate::interrupt::Interrupt;
+use crate::intervals::IntervalArguments;
 
 #[derive(Debug, Args)]
 pub(crate) struct NonlinearArguments {

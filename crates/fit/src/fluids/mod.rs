@@ -30,7 +30,7 @@ use core::cell::Cell;
 use nalgebra::DMatrix;
 use piola_fluids::{Parameters, ViscometricFluid};
 
-use crate::anew::{Change, Fitted};
+use crate::anew::{Anew, Change};
 use crate::search::Range;
 use crate::statistics::{interval, profile};
 use crate::{FitError, student};
@@ -359,7 +359,7 @@ impl<'p> Statistics<'p> {
             return;
         }
         let Problem { model, data, .. } = *self.problem;
-        let fitted = Fitted {
+        let fitted = Anew {
             values: &self.best.parameters,
             bounds: &self.problem.ranges.iter().map(|range| range.bounds).collect::<Vec<_>>(),
             errors: &parameters.iter().map(|parameter| parameter.standard_error).collect::<Vec<_>>(),

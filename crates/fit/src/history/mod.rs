@@ -17,7 +17,7 @@ use core::cell::Cell;
 
 use nalgebra::DMatrix;
 
-use crate::anew::{Change, Fitted};
+use crate::anew::{Anew, Change};
 use crate::estimates::{Estimates, estimates, narrowed};
 use crate::search::{Misfit, Range, minimise};
 use crate::solids::SolidParameter;
@@ -246,7 +246,7 @@ pub fn fit_history_until(
     }
     let Estimates { mut parameters, degrees_of_freedom, criteria, autocorrelation } =
         estimates(&names, &theta, &problem.ranges, &slopes, &series, options.confidence);
-    let fitted = Fitted {
+    let fitted = Anew {
         values: &theta,
         bounds: &problem.ranges.iter().map(|range| range.bounds).collect::<Vec<_>>(),
         errors: &parameters.iter().map(|parameter| parameter.standard_error).collect::<Vec<_>>(),

@@ -6,7 +6,7 @@ use core::str::FromStr;
 use piola_inelastic::{BergstromBoyce, Hardening, Mullins, PowerFlow, ReeseGovindjee, StepControl, Viscoplastic};
 use piola_solids::{Hencky, NeoHookeanCiarlet};
 
-use super::starts::starts;
+use super::starts;
 use super::test::{HistoryTest, follow};
 use crate::FitError;
 
@@ -121,7 +121,12 @@ impl AnyHistoryModel {
     /// ```
     #[must_use]
     pub fn starts(self, tests: &[HistoryTest]) -> Vec<Vec<f64>> {
-        starts(self, tests)
+        match self {
+            Self::BergstromBoyce => starts::bergstrom_boyce(tests),
+            Self::ReeseGovindjee => starts::reese_govindjee(tests),
+            Self::OgdenRoxburgh => starts::ogden_roxburgh(tests),
+            Self::Viscoplastic => starts::viscoplastic(tests),
+        }
     }
 
     const fn word(self) -> &'static str {

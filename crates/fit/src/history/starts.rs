@@ -4,7 +4,6 @@
 //! its yield stress, the secant to it shows less than the modulus. So moduli begin at the steepest secant of all tests, which an unloading
 //! shows, and stresses and times at a few shares of what was measured.
 
-use super::model::AnyHistoryModel;
 use super::test::HistoryTest;
 use crate::sides::Loading;
 
@@ -137,61 +136,61 @@ fn is_unloaded(test: &HistoryTest) -> bool {
     strains(test).windows(3).any(|rows| (rows[1][0] - rows[0][0]) * (rows[2][0] - rows[1][0]) < 0.0)
 }
 
-/// Starts of a model, the likeliest first.
-pub(super) fn starts(model: AnyHistoryModel, tests: &[HistoryTest]) -> Vec<Vec<f64>> {
+/// Times of relaxation near the shortest step, near the duration, and between them.
+fn times(sizes: &Sizes) -> [f64; 3] {
+    [3.0 * sizes.shortest, (sizes.shortest * sizes.duration).sqrt(), 0.3 * sizes.duration]
+}
+
+/// Of Bergström and Boyce's rubber.
+pub(super) fn bergstrom_boyce(tests: &[HistoryTest]) -> Vec<Vec<f64>> {
     let sizes = Sizes::of(tests);
-    let Sizes { largest, duration, shortest, .. } = sizes;
-    // A time of relaxation near the shortest step, near the duration, and between them.
-    let times = [3.0 * shortest, (shortest * duration).sqrt(), 0.3 * duration];
-    let mu = sizes.secant;
-    let bulk = 100.0 * mu;
-    match model {
-        AnyHistoryModel::BergstromBoyce => {
-            // γ̇ = γ̇₀ (λ̄ − 1 + ξ)^c (τ/τ₀)^m is about 1/T: with γ̇₀ = 1/s, τ₀ = τ (T (λ̄ − 1 + ξ)^c)^(1/m).
-            let (slowing, perturbation) = (-0.5, 0.01);
-            let stretch = tests.iter().map(chain_stretch).fold(1.0, f64::max);
-            let resistance = (stretch - 1.0 + perturbation).powf(slowing);
-            let start = |time: f64, overstress: f64, power: f64| {
-                let stress = largest * (time * resistance).powf(1.0 / power);
-                let at_rest = if overstress < sizes.steepest { mu.min(sizes.steepest - overstress) } else { mu };
-                vec![
-                    at_rest,
-                    100.0 * at_rest,
-                    overstress,
-                    100.0 * overstress,
-                    1.0,
-                    stress,
-                    power,
-                    slowing,
-                    perturbation,
-                ]
-            };
-            let steep = (sizes.steepest - 0.5 * mu).max(mu);
-            let usual = times.into_iter().map(|time| start(time, mu, 4.0));
-            usual.chain([start(times[1], steep, 4.0), start(times[1], mu, 8.0)]).collect()
-        }
-        AnyHistoryModel::ReeseGovindjee => times.iter().map(|time| vec![mu, bulk, mu, bulk, mu * time]).collect(),
-        AnyHistoryModel::OgdenRoxburgh => {
-            [1.5, 3.0].iter().map(|softening| vec![mu, bulk, *softening, 0.1 * largest, 0.1]).collect()
-        }
-        AnyHistoryModel::Viscoplastic => {
-            // Without a way back, the modulus may be far above all secants.
-            let factor = if tests.iter().any(is_unloaded) { 1.0 } else { 2.0 };
-            let (stress, strain) = (sizes.equivalent_stress, sizes.equivalent_strain);
-            // Shares of the largest stress: yield stress, saturation, growth by H over the strain, overstress; and δ times the strain.
-            let shares = [
-                (0.6, 0.85, 0.1, 0.05, 5.0, 1.0),
-                (0.8, 0.9, 0.1, 0.05, 5.0, factor),
-                (0.3, 0.8, 0.1, 0.05, 10.0, factor),
-                (0.5, 0.6, 0.4, 0.02, 5.0, factor),
-                (0.4, 0.6, 0.1, 0.3, 5.0, factor),
-            ];
-            let start = |(yields, saturates, grows, over, exponent, factor): (f64, f64, f64, f64, f64, f64)| {
-                let mu = factor * sizes.steepest_of_metal;
-                let (linear, viscosity) = (grows * stress / strain, over * stress / sizes.fastest);
-                vec![mu, 1.5 * mu, yields * stress, linear, saturates * stress, exponent / strain, viscosity]
-            };
-            shares.into_iter().map(start).collect()
-        }
-    }
+    let (mu, times) = (sizes.secant, times(&sizes));
+    // γ̇ = γ̇₀ (λ̄ − 1 + ξ)^c (τ/τ₀)^m is about 1/T: with γ̇₀ = 1/s, τ₀ = τ (T (λ̄ − 1 + ξ)^c)^(1/m).
+    let (slowing, perturbation) = (-0.5, 0.01);
+    let stretch = tests.iter().map(chain_stretch).fold(1.0, f64::max);
+    let resistance = (stretch - 1.0 + perturbation).powf(slowing);
+    let start = |time: f64, overstress: f64, power: f64| {
+        let stress = sizes.largest * (time * resistance).powf(1.0 / power);
+        let at_rest = if overstress < sizes.steepest { mu.min(sizes.steepest - overstress) } else { mu };
+        vec![at_rest, 100.0 * at_rest, overstress, 100.0 * overstress, 1.0, stress, power, slowing, perturbation]
+    };
+    let steep = (sizes.steepest - 0.5 * mu).max(mu);
+    let usual = times.into_iter().map(|time| start(time, mu, 4.0));
+    usual.chain([start(times[1], steep, 4.0), start(times[1], mu, 8.0)]).collect()
+}
+
+/// Of Reese and Govindjee's solid.
+pub(super) fn reese_govindjee(tests: &[HistoryTest]) -> Vec<Vec<f64>> {
+    let sizes = Sizes::of(tests);
+    let (mu, bulk) = (sizes.secant, 100.0 * sizes.secant);
+    times(&sizes).iter().map(|time| vec![mu, bulk, mu, bulk, mu * time]).collect()
+}
+
+/// Of Ogden and Roxburgh's softening rubber.
+pub(super) fn ogden_roxburgh(tests: &[HistoryTest]) -> Vec<Vec<f64>> {
+    let sizes = Sizes::of(tests);
+    let start = |softening: &f64| vec![sizes.secant, 100.0 * sizes.secant, *softening, 0.1 * sizes.largest, 0.1];
+    [1.5, 3.0].iter().map(start).collect()
+}
+
+/// Of viscoplastic metal.
+pub(super) fn viscoplastic(tests: &[HistoryTest]) -> Vec<Vec<f64>> {
+    let sizes = Sizes::of(tests);
+    // Without a way back, the modulus may be far above all secants.
+    let factor = if tests.iter().any(is_unloaded) { 1.0 } else { 2.0 };
+    let (stress, strain) = (sizes.equivalent_stress, sizes.equivalent_strain);
+    // Shares of the largest stress: yield stress, saturation, growth by H over the strain, overstress; δ times the strain; μ over the secant.
+    let shares = [
+        (0.6, 0.85, 0.1, 0.05, 5.0, 1.0),
+        (0.8, 0.9, 0.1, 0.05, 5.0, factor),
+        (0.3, 0.8, 0.1, 0.05, 10.0, factor),
+        (0.5, 0.6, 0.4, 0.02, 5.0, factor),
+        (0.4, 0.6, 0.1, 0.3, 5.0, factor),
+    ];
+    let start = |(yields, saturates, grows, over, exponent, factor): (f64, f64, f64, f64, f64, f64)| {
+        let mu = factor * sizes.steepest_of_metal;
+        let (linear, viscosity) = (grows * stress / strain, over * stress / sizes.fastest);
+        vec![mu, 1.5 * mu, yields * stress, linear, saturates * stress, exponent / strain, viscosity]
+    };
+    shares.into_iter().map(start).collect()
 }

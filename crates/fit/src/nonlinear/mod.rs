@@ -37,7 +37,7 @@ use nalgebra::DMatrix;
 use piola_fluids::AnyFluid;
 
 use crate::FitError;
-use crate::anew::{Change, Fitted};
+use crate::anew::{Anew, Change};
 use crate::estimates::{FitStatistics, statistics_of};
 use crate::search::{Misfit, Range, minimise};
 
@@ -319,7 +319,7 @@ pub fn fit_nonlinear_until(
     }
     let FitStatistics { mut parameters, degrees_of_freedom, criteria, autocorrelation } =
         statistics_of(&values, &bounds, &at_bound, &slopes, &series, options.confidence);
-    let fitted = Fitted {
+    let fitted = Anew {
         values: &values,
         bounds: &bounds,
         errors: &parameters.iter().map(|parameter| parameter.standard_error).collect::<Vec<_>>(),

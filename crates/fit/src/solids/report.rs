@@ -2,7 +2,7 @@
 
 use super::search::{Best, Problem};
 use super::{Fit, Intervals, Model, Options, Parameter, Residuals, SolidParameter, StabilityReport, State, stability};
-use crate::anew::{Change, Fitted};
+use crate::anew::{Anew, Change};
 use crate::statistics::{Autocorrelation, Covariance, Criteria, interval, profile, student};
 
 /// A limit with an interval this many times its distance from its bound is not determined.
@@ -118,7 +118,7 @@ fn resample<M: Model>(
         places.extend(points.into_iter().map(|(_, i)| i));
         row += test.len();
     }
-    let fitted = Fitted {
+    let fitted = Anew {
         values: &best.parameters,
         bounds: &(0..parameters.len()).map(|k| problem.bounds(k, &best.parameters)).collect::<Vec<_>>(),
         errors: &parameters.iter().map(|parameter| parameter.standard_error).collect::<Vec<_>>(),

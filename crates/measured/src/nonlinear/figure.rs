@@ -3,7 +3,7 @@
 use piola_charts::{LogPanel, figure};
 use piola_fit::nonlinear::{NonlinearData, NonlinearFlow, ShearResponse};
 
-use super::output::unit_of_drive;
+use super::curves::unit_of_drive;
 use super::{NonlinearComparison, NonlinearTable};
 
 /// Title and axes of the panel of a flow.

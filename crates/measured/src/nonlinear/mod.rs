@@ -12,6 +12,7 @@
 //! `# extension: planar` or `biaxial` says which; without it, it is uniaxial.
 
 mod columns;
+mod curves;
 mod figure;
 mod output;
 mod table;

@@ -1,7 +1,7 @@
 //! Intervals of foams and fibres by fitting anew.
 
 use piola_fit::Intervals;
-use piola_fit::internal::{Change, Fitted};
+use piola_fit::internal::{Anew, Change};
 use piola_fit::sides::{SidesFit, SidesModel, SidesOptions, SidesResiduals, SidesTest, fit_sides};
 
 /// A fit with intervals of this kind.
@@ -21,7 +21,7 @@ pub(super) fn with_intervals(
             given.fold(own, |[low, high], (_, [a, b])| [low.max(*a), high.min(*b)])
         })
         .collect();
-    let anew = Fitted {
+    let anew = Anew {
         values: &fit.values(),
         bounds: &bounds,
         errors: &fit.parameters.iter().map(|parameter| parameter.standard_error).collect::<Vec<_>>(),
