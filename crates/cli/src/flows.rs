@@ -9,7 +9,7 @@ use piola_forward::{FlowRequest, ForwardError};
 use piola_measured::MeasuredError;
 use piola_measured::comparison::{Comparison, Judged, Watch};
 use piola_measured::rheology::{
-    self, FlowKind, FluidModel, Intervals, Measured, Noise, Reading, RecoveryRequest, Request, Rise, Weighting,
+    self, FlowKind, FluidModel, Measured, Noise, Reading, RecoveryRequest, Request, Rise, Weighting,
 };
 
 use crate::Exit;

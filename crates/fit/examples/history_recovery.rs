@@ -5,8 +5,7 @@
 //! ```
 //! The argument is the number of tables of each law. Each stress has normal noise of 1 % of the largest. The metals' first row is beyond
 //! their yield stress. A fit counts if its sum of squares exceeds by at most 1 % the least that is found, from the starts or from the
-//! parameters that made the table. The kinematic hardening is a law of one's own. The results are in
-//! `docs/measurements/measured-tables.md`.
+//! parameters that made the table. The kinematic hardening is a law of one's own.
 
 #![expect(clippy::print_stdout, reason = "prints a table")]
 

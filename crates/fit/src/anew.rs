@@ -26,6 +26,9 @@ pub enum Change<'c> {
     Held(usize, f64),
 }
 
+/// Makes a changed fit anew: its parameters and S.
+pub type Again<'a> = dyn FnMut(Change<'_>) -> Option<(Vec<f64>, f64)> + 'a;
+
 /// What intervals follow from, besides fits made anew.
 #[derive(Clone, Copy, Debug)]
 pub struct Anew<'f> {
@@ -51,11 +54,7 @@ const MOST_FAIL: f64 = 0.9;
 impl Anew<'_> {
     /// The intervals of all parameters that are determined; none where intervals are linear. `fit` returns parameters and S of a
     /// changed fit.
-    pub fn intervals(
-        &self,
-        how: Intervals,
-        fit: &mut dyn FnMut(Change<'_>) -> Option<(Vec<f64>, f64)>,
-    ) -> Option<Vec<Option<[f64; 2]>>> {
+    pub fn intervals(&self, how: Intervals, fit: &mut Again<'_>) -> Option<Vec<Option<[f64; 2]>>> {
         match how {
             Intervals::Linear => None,
             Intervals::Profile => Some((0..self.values.len()).map(|k| self.profiled(k, fit)).collect()),
@@ -63,7 +62,7 @@ impl Anew<'_> {
         }
     }
 
-    fn profiled(&self, k: usize, fit: &mut dyn FnMut(Change<'_>) -> Option<(Vec<f64>, f64)>) -> Option<[f64; 2]> {
+    fn profiled(&self, k: usize, fit: &mut Again<'_>) -> Option<[f64; 2]> {
         let error = self.errors[k]?;
         let quantile = self.widening * student(self.confidence, self.degrees_of_freedom)?;
         let least: f64 = self.series.iter().flat_map(|residuals| residuals.iter()).map(|r| r * r).sum();
@@ -73,12 +72,7 @@ impl Anew<'_> {
     }
 
     /// By the bootstrap of residuals.
-    fn resampled(
-        &self,
-        samples: usize,
-        seed: u64,
-        fit: &mut dyn FnMut(Change<'_>) -> Option<(Vec<f64>, f64)>,
-    ) -> Vec<Option<[f64; 2]>> {
+    fn resampled(&self, samples: usize, seed: u64, fit: &mut Again<'_>) -> Vec<Option<[f64; 2]>> {
         let none = || vec![None; self.values.len()];
         let Some(t) = student(self.confidence, self.degrees_of_freedom) else { return none() };
         let all: Vec<f64> = self.series.concat();

@@ -26,7 +26,7 @@ mod statistics;
 #[doc(hidden)]
 pub mod internal {
     #[cfg(any(feature = "fluids", feature = "solids"))]
-    pub use crate::anew::{Anew, Change};
+    pub use crate::anew::{Again, Anew, Change};
     pub use crate::search::{End, Misfit, Range, minimise};
 }
 

@@ -345,10 +345,9 @@ impl<'p> Statistics<'p> {
             }
         }
         let interval = match self.intervals {
-            Intervals::Linear => interval(value, bounds, half),
             Intervals::Profile => self.profile(k, error, limit),
             // That of the bootstrap comes for all parameters at once.
-            Intervals::Bootstrap { .. } => interval(value, bounds, half),
+            Intervals::Linear | Intervals::Bootstrap { .. } => interval(value, bounds, half),
         };
         FluidParameter { standard_error: Some(error), interval: Some(interval), state: State::Determined, ..none }
     }

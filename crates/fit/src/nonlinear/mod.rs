@@ -292,19 +292,7 @@ pub fn fit_nonlinear_until(
     let (first, count) = model.places(&options.modes);
     sort_modes(&mut x[first..first + 2 * count]);
     let values = end.misfit.parameters(&x);
-    let is_at_bound = |k: usize| {
-        let [low, high] = ranges[k].bounds;
-        if high.is_finite() {
-            let near = 1e-5 * (high - low);
-            return values[k] - low <= near || high - values[k] <= near;
-        }
-        // Going all the way to the bound changes nothing.
-        let mut moved = values.clone();
-        moved[k] *= 1e-30;
-        let squares_there = end.misfit.evaluate(&moved).map(|r| r.iter().map(|r| r * r).sum::<f64>());
-        squares_there.is_some_and(|there| there <= squares * (1.0 + 1e-9) + f64::MIN_POSITIVE)
-    };
-    let at_bound: Vec<bool> = (0..n).map(is_at_bound).collect();
+    let at_bound: Vec<bool> = (0..n).map(|k| is_at_bound(&end.misfit, k, &values, squares)).collect();
     let mut slopes = end.misfit.slopes(&x, &residuals);
     for (k, range) in ranges.iter().enumerate() {
         let outward = range.outward(x[k])[1];
@@ -356,6 +344,19 @@ pub fn fit_nonlinear_until(
         evaluations: evaluations.get(),
         starts_that_agree,
     })
+}
+
+/// Whether a parameter is at its bound: near an end of a range, or where going all the way to zero changes nothing.
+fn is_at_bound(walk: &Walk<'_>, k: usize, values: &[f64], squares: f64) -> bool {
+    let [low, high] = walk.ranges[k].bounds;
+    if high.is_finite() {
+        let near = 1e-5 * (high - low);
+        return values[k] - low <= near || high - values[k] <= near;
+    }
+    let mut moved = values.to_vec();
+    moved[k] *= 1e-30;
+    let squares_there = walk.evaluate(&moved).map(|r| r.iter().map(|r| r * r).sum::<f64>());
+    squares_there.is_some_and(|there| there <= squares * (1.0 + 1e-9) + f64::MIN_POSITIVE)
 }
 
 /// Parameters with their modes sorted.

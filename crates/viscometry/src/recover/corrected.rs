@@ -14,10 +14,10 @@ use core::f64::consts::PI;
 use nalgebra::{DMatrix, DVector};
 
 use super::band::critical;
-use super::curve::{DEGREE, FINE, LEFT_OUT, SAFETY, SELECTED, envelope};
+use super::curve::{DEGREE, FINE, LEFT_OUT, SAFETY, envelope};
 use super::geometry::PipeGeometry;
-use super::smoother::Smoother;
-use super::smoothing::{Criterion, Curve, EXACT, Fitted, Smoothing};
+use super::plain::Smoother;
+use super::smoothing::{Criterion, EXACT, Fitted, Smoothing};
 use super::splines::Derivatives;
 use super::table::{FlowTable, Noise};
 use crate::ViscometryError;
@@ -25,9 +25,9 @@ use crate::ViscometryError;
 /// A table's logarithms as a curve, with what its errors follow from.
 #[derive(Clone, Debug, PartialEq)]
 struct Smoothed {
-    main: Curve,
-    /// Curves through exact rows that could be as true.
-    others: Vec<Curve>,
+    main: Fitted,
+    /// Curves that could be as true.
+    others: Vec<Fitted>,
     /// √Cov of the coefficients.
     root: DMatrix<f64>,
     /// Degrees of freedom of the noise.
@@ -45,17 +45,19 @@ impl Smoothed {
         let u: Vec<f64> = table.drive.iter().map(|x| x.ln()).collect();
         let y: Vec<f64> = table.response.iter().map(|x| x.ln()).collect();
         let level = table.level();
+        let known = matches!(table.noise, Noise::Relative(_)).then_some(level);
         let singular = || ViscometryError::RowsTooClose { rows: u.len() };
         if level <= EXACT {
             return Self::through(&u, &y, level).ok_or_else(singular);
         }
-        let known = matches!(table.noise, Noise::Relative(_));
-        let smoother = Smoother::new(&u, &y, level, known).ok_or_else(singular)?;
-        let choice = smoother.choose().ok_or_else(singular)?;
-        let main = smoother.fit(&choice, false).ok_or_else(singular)?;
+        let fitted = |order| {
+            let smoother = Smoother::new(&u, &y, order).ok_or_else(singular)?;
+            Ok::<_, ViscometryError>(smoother.fit(smoother.choose(known), known, false))
+        };
+        let (main, other) = (fitted(2)?, fitted(3)?);
         Ok(Self {
-            main: Curve::Smooth(main.curve),
-            others: Vec::new(),
+            main: main.fitted,
+            others: vec![other.fitted],
             root: main.root,
             freedom: main.freedom,
             safety: 1.0,
@@ -88,7 +90,6 @@ impl Smoothed {
             degrees_of_freedom: u.len() as f64,
             raised: false,
         };
-        let (main, others) = (Curve::Through(main), others.into_iter().map(Curve::Through).collect());
         Some(Self { main, others, root, freedom: f64::INFINITY, safety: SAFETY, smoothing })
     }
 }
@@ -172,13 +173,13 @@ impl Corrected {
     }
 
     /// yᵢ and the derivatives of its logarithm.
-    fn answer(member: &Member, curve: &Curve, u: f64) -> (f64, Derivatives) {
+    fn answer(member: &Member, curve: &Fitted, u: f64) -> (f64, Derivatives) {
         let derivatives = curve.at(u + member.shift);
         (member.scale * derivatives[0].exp(), derivatives)
     }
 
     /// The sums with one of the curves in place of the main one of a table; `None` where nothing positive follows.
-    fn sums(&self, u: f64, instead: Option<(usize, &Curve)>) -> Option<Sums> {
+    fn sums(&self, u: f64, instead: Option<(usize, &Fitted)>) -> Option<Sums> {
         let (mut line, mut first, mut second) = ([0.0; 2], [0.0; 2], [0.0; 2]);
         for (index, member) in self.members.iter().enumerate() {
             let curve = instead.filter(|(other, _)| *other == index).map_or(&member.smoothed.main, |(_, curve)| curve);
@@ -309,10 +310,7 @@ impl Corrected {
             differences.push(self.difference(u, &sums));
         }
         let freedom = self.members.iter().map(|member| member.smoothed.freedom).fold(f64::INFINITY, f64::min);
-        let is_smoothed =
-            self.members.iter().any(|member| member.smoothed.smoothing.criterion != Criterion::Interpolation);
-        let selected = if is_smoothed { SELECTED } else { 1.0 };
-        let critical = selected * critical(length, freedom, confidence);
+        let critical = critical(length, freedom, confidence);
         let differences = envelope(&differences);
         let half = deviations.iter().zip(differences).map(|(deviation, other)| critical * deviation + other);
         self.band = Some(half.map(|half| half + 8.0 * f64::EPSILON).collect());
@@ -323,8 +321,12 @@ impl Corrected {
     fn mapped(&self, u: f64, sums: &Sums) -> DVector<f64> {
         let parts = self.members.iter().map(|member| {
             let [value, slope] = self.sensitivity(member, sums, u);
-            let mut row = DVector::zeros(member.smoothed.root.nrows());
-            member.smoothed.main.accumulate(row.as_mut_slice(), [value, slope, 0.0, 0.0, 0.0], u + member.shift);
+            let mut row = DVector::zeros(member.smoothed.main.splines.count());
+            member.smoothed.main.splines.accumulate(
+                row.as_mut_slice(),
+                [value, slope, 0.0, 0.0, 0.0],
+                u + member.shift,
+            );
             member.smoothed.root.tr_mul(&row)
         });
         let all: Vec<f64> = parts.flat_map(|part| part.as_slice().to_vec()).collect();
@@ -334,7 +336,7 @@ impl Corrected {
     /// The change of ln k at the same τ by other curves of the tables.
     fn difference(&self, u: f64, sums: &Sums) -> f64 {
         let of_one = |(index, member): (usize, &Member)| {
-            let change = |other: &Curve| match self.sums(u, Some((index, other))) {
+            let change = |other: &Fitted| match self.sums(u, Some((index, other))) {
                 Some(changed) => {
                     let [stress, rate]: [f64; 2] = core::array::from_fn(|k| changed.logarithms[k] - sums.logarithms[k]);
                     (rate - sums.slope * stress).abs()

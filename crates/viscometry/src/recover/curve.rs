@@ -98,7 +98,7 @@ pub(super) const LEFT_OUT: usize = 40;
 
 /// Bands of smoothed curves are wider by this factor: λ follows the rows too. Measured: without it the bands of Newtonian fluids and power laws
 /// hold some 91 % of the curves.
-pub(super) const SELECTED: f64 = 1.12;
+const SELECTED: f64 = 1.12;
 
 /// A recovered curve: abscissas, the recovered quantity, and what bands follow from.
 #[derive(Clone, Debug, PartialEq)]

@@ -41,6 +41,7 @@ pub mod functions;
 mod geometry;
 mod inertia;
 mod log_slope;
+mod plain;
 mod repeats;
 mod rotational;
 mod rule;

@@ -61,13 +61,13 @@ pub(super) struct Smoother {
     panels: Panels,
     anchor: usize,
     start: DVector<f64>,
-    /// tr JᵀJ at the start.
+    /// The trace of `JᵀJ` at the start.
     size: f64,
 }
 
 /// The linearised problem at some parameters.
 struct Linear {
-    /// JᵀJ and Jᵀr.
+    /// `JᵀJ` and `Jᵀr`.
     normal: DMatrix<f64>,
     right: DVector<f64>,
     /// The squares of the residuals.
