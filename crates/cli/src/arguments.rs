@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::intervals::IntervalArguments;
+
 /// Mechanics from scenes: run, plan, check.
 #[derive(Debug, Parser)]
 #[command(
@@ -166,9 +168,8 @@ pub(crate) struct FitArguments {
     /// Write the stresses of every law up to this stretch, within the data or beyond, to predictions.csv.
     #[arg(long, value_name = "STRETCH")]
     pub(crate) to: Option<f64>,
-    /// Find intervals by profile likelihood: each parameter is moved and all others are fitted anew.
-    #[arg(long)]
-    pub(crate) profile: bool,
+    #[command(flatten)]
+    pub(crate) intervals: IntervalArguments,
     /// Write a material card of each law for a program: abaqus, ansys, calculix, febio or ls-dyna. Needs
     /// --bulk-modulus, but for a foam.
     #[arg(long = "card", value_name = "PROGRAM")]
@@ -269,9 +270,8 @@ pub(crate) struct FitFlowArguments {
     /// Suppose errors of one size in all rows, instead of a part of each answer.
     #[arg(long)]
     pub(crate) equal_errors: bool,
-    /// Find intervals by profile likelihood: each parameter is moved and all others are fitted anew.
-    #[arg(long)]
-    pub(crate) profile: bool,
+    #[command(flatten)]
+    pub(crate) intervals: IntervalArguments,
 }
 
 #[derive(Debug, Args)]

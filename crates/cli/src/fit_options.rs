@@ -4,7 +4,8 @@ use piola_measured::MeasuredError;
 
 use crate::arguments::FitArguments;
 
-/// Refuses options that a kind of fit does not have; it has those that are named, --law, --confidence, --out and --json.
+/// Refuses options that a kind of fit does not have; it has those that are named, --law, --intervals, --profile,
+/// --confidence, --out and --json.
 pub(crate) fn refuse_all_but(
     arguments: &FitArguments,
     used: &[&str],
@@ -17,7 +18,6 @@ pub(crate) fn refuse_all_but(
         (!arguments.only.is_empty(), "--only"),
         (arguments.cross_validate, "--cross-validate"),
         (arguments.to.is_some(), "--to"),
-        (arguments.profile, "--profile"),
         (!arguments.bounds.is_empty(), "--bound"),
         (!arguments.cards.is_empty(), "--card"),
     ];

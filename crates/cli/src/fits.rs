@@ -5,7 +5,7 @@ use std::path::Path;
 use piola_charts::Folder;
 use piola_measured::MeasuredError;
 use piola_measured::fitting::{self, Measurements, Request};
-use piola_measured::sides::{SidesMeasurements, SidesModel, SidesOptions, card_of_foam, compare_sides};
+use piola_measured::sides::{SidesMeasurements, SidesModel, SidesOptions, card_of_foam, compare_sides_with};
 
 use crate::arguments::FitArguments;
 use crate::commands::{listing, note, print, refused};
@@ -98,7 +98,7 @@ fn with_sides(arguments: &FitArguments) -> Exit {
         let laws: Vec<SidesModel> =
             arguments.laws.iter().map(|name| Ok(name.parse()?)).collect::<Result<_, MeasuredError>>()?;
         let measurements = SidesMeasurements::load(&arguments.data)?;
-        let found = compare_sides(&measurements, &laws, &options);
+        let found = compare_sides_with(&measurements, &laws, &options, arguments.intervals.kind()?);
         let mut cards = Vec::new();
         for text in &arguments.cards {
             let program: fitting::Program = text.parse()?;
@@ -131,7 +131,7 @@ fn with_sides(arguments: &FitArguments) -> Exit {
 
 /// The options of a fit of foam or fibres.
 fn sides_options(arguments: &FitArguments) -> Result<SidesOptions, MeasuredError> {
-    let valid = "for laws of foam and of fibres: --law, --confidence, --card, --out and --json";
+    let valid = "for laws of foam and of fibres: --law, --intervals, --confidence, --card, --out and --json";
     refuse_all_but(arguments, &["--card"], valid)?;
     let mut options = SidesOptions::default();
     options.confidence = arguments.confidence;
@@ -204,8 +204,6 @@ fn request(arguments: &FitArguments) -> Result<Request, MeasuredError> {
     }
     request.confidence = arguments.confidence;
     request.cross_validation = arguments.cross_validate;
-    if arguments.profile {
-        request.intervals = fitting::Intervals::Profile;
-    }
+    request.intervals = arguments.intervals.kind()?;
     Ok(request)
 }

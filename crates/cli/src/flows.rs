@@ -9,7 +9,7 @@ use piola_forward::{FlowRequest, ForwardError};
 use piola_measured::MeasuredError;
 use piola_measured::comparison::{Comparison, Judged, Watch};
 use piola_measured::rheology::{
-    self, FlowKind, FluidModel, Intervals, Measured, Noise, Reading, RecoveryRequest, Request, Rise, Weighting,
+    self, FlowKind, FluidModel, Measured, Noise, Reading, RecoveryRequest, Request, Rise, Weighting,
 };
 
 use crate::Exit;
@@ -74,9 +74,7 @@ pub(crate) fn fit(arguments: &FitFlowArguments) -> Exit {
         if arguments.equal_errors {
             request.weighting = Weighting::Equal;
         }
-        if arguments.profile {
-            request.intervals = Intervals::Profile;
-        }
+        request.intervals = arguments.intervals.kind()?;
         let found = watched(&measured.name(), &interrupt, |watch| rheology::compare_until(&measured, &request, watch))?;
         Ok((measured, found))
     });

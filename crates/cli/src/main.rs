@@ -18,6 +18,7 @@ mod histories;
 mod histories;
 mod html;
 mod interrupt;
+mod intervals;
 #[cfg(feature = "nonlinear")]
 mod nonlinear;
 #[cfg(not(feature = "nonlinear"))]

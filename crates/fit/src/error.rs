@@ -158,6 +158,14 @@ pub enum FitError {
         /// The name.
         name: String,
     },
+    /// No kind of intervals has this name.
+    #[error(
+        "no intervals are called `{name}`; they are linear, profile, bootstrap, and bootstrap:N of 200 to 100000 samples"
+    )]
+    UnknownIntervals {
+        /// The name.
+        name: String,
+    },
     /// A law with history has no answer to a loading.
     #[error(
         "test `{test}`: laws with history are fitted to uniaxial, equibiaxial, planar and simple-shear tests, not to \

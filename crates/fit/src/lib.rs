@@ -2,6 +2,8 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+#[cfg(any(feature = "fluids", feature = "solids"))]
+mod anew;
 mod error;
 #[cfg(any(feature = "solids", feature = "nonlinear"))]
 mod estimates;
@@ -23,6 +25,8 @@ mod statistics;
 /// What other crates of Piola use; no part of the interface.
 #[doc(hidden)]
 pub mod internal {
+    #[cfg(any(feature = "fluids", feature = "solids"))]
+    pub use crate::anew::{Again, Anew, Change};
     pub use crate::search::{End, Misfit, Range, minimise};
 }
 

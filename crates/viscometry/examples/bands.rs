@@ -3,7 +3,7 @@
 //! ```sh
 //! cargo run --release -p piola-viscometry --example bands -- 200
 //! ```
-//! The argument is the number of trials of each fluid in each flow. Each table has 25 rows at wall rates from 10⁻² to 10³ 1/s, each response
+//! The first argument is the number of trials of each fluid in each flow, the second, if there is one, the only flow. Each table has 25 rows at wall rates from 10⁻² to 10³ 1/s, each response
 //! times 1 + 1 % normal noise, which is estimated from the table. Rows whose band reaches by more than a factor of ten are refused, as
 //! `piola recover` does.
 //!
@@ -159,10 +159,12 @@ fn cell(fluid: &AnyFluid, flow: &str, trials: u32, normal: &mut NormalNoise) -> 
 
 fn main() -> Result<(), Box<dyn Error>> {
     let trials = std::env::args().nth(1).map_or(Ok(200), |text| text.parse())?;
+    let only = std::env::args().nth(2);
+    let flows: Vec<&str> = FLOWS.into_iter().filter(|flow| only.as_ref().is_none_or(|only| only == flow)).collect();
     let mut normal = NormalNoise(20_261_127);
     let mut out = std::io::stdout();
     writeln!(out, "{LEGEND}")?;
-    writeln!(out, "| fluid | {} |\n|---|{}", FLOWS.join(" | "), "---|".repeat(FLOWS.len()))?;
+    writeln!(out, "| fluid | {} |\n|---|{}", flows.join(" | "), "---|".repeat(flows.len()))?;
     let fluids: [AnyFluid; 10] = [
         Newtonian::new(0.7)?.into(),
         PowerLaw::new(3.0, 0.5)?.into(),
@@ -177,7 +179,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     ];
     for fluid in &fluids {
         let mut line = format!("| {} |", fluid.name());
-        for flow in FLOWS {
+        for &flow in &flows {
             write!(line, " {} |", cell(fluid, flow, trials, &mut normal)?)?;
         }
         writeln!(out, "{line}")?;

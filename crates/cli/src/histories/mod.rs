@@ -34,10 +34,11 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
 }
 
 fn request(arguments: &FitArguments) -> Result<HistoryRequest, MeasuredError> {
-    let valid = "for laws with history: --law, --bound, --confidence, --out and --json";
+    let valid = "for laws with history: --law, --bound, --intervals, --confidence, --out and --json";
     refuse_all_but(arguments, &["--bound"], valid)?;
     let laws = arguments.laws.iter().map(|name| Ok(name.parse()?)).collect::<Result<_, MeasuredError>>()?;
     let mut request = HistoryRequest::of(laws);
     request.confidence = arguments.confidence;
+    request.intervals = arguments.intervals.kind()?;
     arguments.bounds.iter().try_fold(request, |request, text| request.with_bound(text))
 }

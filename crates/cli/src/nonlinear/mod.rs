@@ -12,6 +12,7 @@ use crate::Exit;
 use crate::commands::refused;
 use crate::flows::{Results, finished, out, watched};
 use crate::interrupt::Interrupt;
+use crate::intervals::IntervalArguments;
 
 #[derive(Debug, Args)]
 pub(crate) struct NonlinearArguments {
@@ -29,6 +30,8 @@ pub(crate) struct NonlinearArguments {
     /// Hold the relaxation modes of this spectrum, the summary.json of `piola spectrum`.
     #[arg(long, value_name = "FILE", conflicts_with = "modes")]
     pub(crate) spectrum: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) intervals: IntervalArguments,
     /// The probability of the intervals.
     #[arg(long, value_name = "PROBABILITY", default_value_t = 0.95)]
     pub(crate) confidence: f64,
@@ -50,6 +53,7 @@ pub(crate) fn fit(arguments: &NonlinearArguments) -> Exit {
             None => RelaxationModes::Fitted(arguments.modes),
         };
         request.confidence = arguments.confidence;
+        request.intervals = arguments.intervals.kind()?;
         let found = watched(&table.name(), &interrupt, |watch| compare_nonlinear_until(&table, &request, watch))?;
         Ok((table, found))
     });

@@ -30,6 +30,7 @@ use core::cell::Cell;
 use nalgebra::DMatrix;
 use piola_fluids::{Parameters, ViscometricFluid};
 
+use crate::anew::{Anew, Change};
 use crate::search::Range;
 use crate::statistics::{interval, profile};
 use crate::{FitError, student};
@@ -239,9 +240,11 @@ fn fit_model(
         rest = others;
     }
     let statistics = Statistics::new(&problem, &best, &DMatrix::from_row_slice(rows, n, &slopes), &sets, options);
+    let mut parameters: Vec<FluidParameter> = (0..n).map(|k| statistics.parameter(k)).collect();
+    statistics.resample(&mut parameters, &sets, options);
     Ok(FluidFit {
         fluid: (),
-        parameters: (0..n).map(|k| statistics.parameter(k)).collect(),
+        parameters,
         residuals: sets,
         squares: best.squares,
         degrees_of_freedom: statistics.degrees_of_freedom,
@@ -342,10 +345,44 @@ impl<'p> Statistics<'p> {
             }
         }
         let interval = match self.intervals {
-            Intervals::Linear => interval(value, bounds, half),
             Intervals::Profile => self.profile(k, error, limit),
+            // That of the bootstrap comes for all parameters at once.
+            Intervals::Linear | Intervals::Bootstrap { .. } => interval(value, bounds, half),
         };
         FluidParameter { standard_error: Some(error), interval: Some(interval), state: State::Determined, ..none }
+    }
+
+    /// Intervals by the bootstrap, where they are asked for.
+    fn resample(&self, parameters: &mut [FluidParameter], sets: &[Vec<f64>], options: &Options) {
+        if !matches!(self.intervals, Intervals::Bootstrap { .. }) {
+            return;
+        }
+        let Problem { model, data, .. } = *self.problem;
+        let fitted = Anew {
+            values: &self.best.parameters,
+            bounds: &self.problem.ranges.iter().map(|range| range.bounds).collect::<Vec<_>>(),
+            errors: &parameters.iter().map(|parameter| parameter.standard_error).collect::<Vec<_>>(),
+            series: &sets.iter().map(Vec::as_slice).collect::<Vec<_>>(),
+            degrees_of_freedom: self.degrees_of_freedom,
+            widening: self.autocorrelation.map_or(1.0, |found| found.widening),
+            confidence: options.confidence,
+        };
+        let anew = fitted.intervals(self.intervals, &mut |change| {
+            let Change::Shifted(shift) = change else { return None };
+            let residuals = |data: &[FlowData], parameters: &[f64]| {
+                let (mut residuals, slopes) = (model.residuals)(data, parameters)?;
+                residuals.iter_mut().zip(shift).for_each(|(residual, shift)| *residual += shift);
+                Ok((residuals, slopes))
+            };
+            let model = Model { residuals: &residuals, ..*model };
+            let problem = Problem { model: &model, data, ranges: self.problem.ranges.clone(), ..*self.problem };
+            problem.search(&self.best.parameters).map(|best| (best.parameters, best.squares))
+        });
+        for (parameter, interval) in parameters.iter_mut().zip(anew.into_iter().flatten()) {
+            if parameter.standard_error.is_some() {
+                parameter.interval = interval;
+            }
+        }
     }
 
     /// By profile likelihood.

@@ -10,17 +10,19 @@
 //! See [`fit_history`].
 
 mod model;
+mod starts;
 mod test;
 
 use core::cell::Cell;
 
 use nalgebra::DMatrix;
 
+use crate::anew::{Anew, Change};
 use crate::estimates::{Estimates, estimates, narrowed};
 use crate::search::{Misfit, Range, minimise};
 use crate::solids::SolidParameter;
 use crate::statistics::{Autocorrelation, Criteria};
-use crate::{FitError, Outcome};
+use crate::{FitError, Intervals, Outcome};
 
 pub use piola_inelastic::StepControl;
 
@@ -40,13 +42,21 @@ pub struct HistoryOptions {
     pub control: StepControl,
     /// The probability of the intervals.
     pub confidence: f64,
+    /// How intervals are found.
+    pub intervals: Intervals,
     /// Evaluations of the search, for each unknown, besides those of derivatives.
     pub patience: usize,
 }
 
 impl Default for HistoryOptions {
     fn default() -> Self {
-        Self { bounds: Vec::new(), control: StepControl::default(), confidence: 0.95, patience: 100 }
+        Self {
+            bounds: Vec::new(),
+            control: StepControl::default(),
+            confidence: 0.95,
+            intervals: Intervals::Linear,
+            patience: 100,
+        }
     }
 }
 
@@ -211,7 +221,9 @@ pub fn fit_history_until(
     }
     let start: Vec<f64> =
         start.iter().zip(&ranges).map(|(value, range)| value.clamp(range.bounds[0], range.bounds[1])).collect();
-    let problem = Problem { model, tests, ranges, control: options.control, points, evaluations: Cell::new(0) };
+    let evaluations = Cell::new(0);
+    let problem =
+        Problem { model, tests, ranges, control: options.control, points, shift: &[], evaluations: &evaluations };
     problem.residuals(&start)?;
     let x = searched.iter().map(|&k| problem.ranges[k].inward(start[k])).collect();
     let walk = Walk { problem: &problem, searched: &searched, parameters: start };
@@ -232,8 +244,21 @@ pub fn fit_history_until(
             stresses: weighted.iter().map(|residual| residual * test.largest_stress()).collect(),
         });
     }
-    let Estimates { parameters, degrees_of_freedom, criteria, autocorrelation } =
+    let Estimates { mut parameters, degrees_of_freedom, criteria, autocorrelation } =
         estimates(&names, &theta, &problem.ranges, &slopes, &series, options.confidence);
+    let fitted = Anew {
+        values: &theta,
+        bounds: &problem.ranges.iter().map(|range| range.bounds).collect::<Vec<_>>(),
+        errors: &parameters.iter().map(|parameter| parameter.standard_error).collect::<Vec<_>>(),
+        series: &series,
+        degrees_of_freedom,
+        widening: autocorrelation.map_or(1.0, |found| found.widening),
+        confidence: options.confidence,
+    };
+    let anew = fitted.intervals(options.intervals, &mut |change| problem.again(change, &theta, options.patience, stop));
+    for (parameter, interval) in parameters.iter_mut().zip(anew.into_iter().flatten()) {
+        parameter.interval = interval;
+    }
     Ok(HistoryFit {
         model: model.name(),
         parameters,
@@ -247,6 +272,69 @@ pub fn fit_history_until(
     })
 }
 
+/// The accuracy of stresses where starts are tried, and evaluations for each unknown.
+const ROUGHLY: (f64, usize) = (1e-4, 25);
+
+/// Fits a law from the best of several starts: a rough search from each, with few evaluations and steps of 1e-4, then a full one from the
+/// end of the best. `hold` names the parameters that keep the value of each start.
+///
+/// # Errors
+/// As [`fit_history`]; where no start has a fit, what the first is refused for.
+///
+/// # Example
+/// ```
+/// use piola_fit::history::{AnyHistoryModel, HistoryModel, HistoryOptions, HistoryTest, fit_history_of_starts};
+/// use piola_fit::sides::Loading;
+/// use piola_inelastic::StepControl;
+/// let (model, control) = (AnyHistoryModel::ReeseGovindjee, StepControl::one_step());
+/// let mut rows = [0.0, 0.5, 1.0, 2.0, 4.0, 8.0].map(|t| [t, 0.5, 0.0]);
+/// let path = HistoryTest::new("path", Loading::SimpleShear, &rows)?;
+/// let stresses = model.stresses(&[1.0, 100.0, 2.0, 100.0, 3.0], &path, &control)?;
+/// rows.iter_mut().zip(stresses).for_each(|(row, stress)| row[2] = stress);
+/// let tests = [HistoryTest::new("hold", Loading::SimpleShear, &rows)?];
+/// let options = HistoryOptions::default().with_control(control);
+/// let held = ["first_lame_parameter", "overstress_first_lame_parameter"];
+/// let fit = fit_history_of_starts(&model, &tests, &model.starts(&tests), &held, &options, &|| false)?;
+/// assert!((fit.values()[2] - 2.0).abs() < 1e-7 && (fit.values()[4] - 3.0).abs() < 1e-7);
+/// # Ok::<(), piola_fit::FitError>(())
+/// ```
+pub fn fit_history_of_starts(
+    model: &dyn HistoryModel,
+    tests: &[HistoryTest],
+    starts: &[Vec<f64>],
+    hold: &[&str],
+    options: &HistoryOptions,
+    stop: &dyn Fn() -> bool,
+) -> Result<HistoryFit, FitError> {
+    let (accuracy, patience) = ROUGHLY;
+    let rough = StepControl::new(accuracy)?;
+    let (mut best, mut refused): (Option<(HistoryFit, HistoryOptions)>, _) = (None, None);
+    for start in starts {
+        let mut options = options.clone();
+        for ((name, ..), value) in model.parameters().iter().zip(start).filter(|((name, ..), _)| hold.contains(name)) {
+            options = options.with_bounds(name, [*value; 2]);
+        }
+        let mut sketch = options.clone();
+        sketch.patience = patience;
+        sketch.intervals = Intervals::Linear;
+        if options.control.tolerance().is_some_and(|tolerance| tolerance < accuracy) {
+            sketch.control = rough;
+        }
+        match fit_history_until(model, tests, start, &sketch, stop) {
+            Ok(fit) if best.as_ref().is_none_or(|(best, _)| fit.weighted_squares < best.weighted_squares) => {
+                best = Some((fit, options));
+            }
+            Ok(_) => {}
+            Err(error) => refused = refused.or(Some(error)),
+        }
+        if stop() {
+            break;
+        }
+    }
+    let (best, options) = best.ok_or_else(|| refused.unwrap_or(FitError::NoStart { model: model.name() }))?;
+    if stop() { Ok(best) } else { fit_history_until(model, tests, &best.values(), &options, stop) }
+}
+
 /// The data and ranges of a search.
 struct Problem<'a> {
     model: &'a dyn HistoryModel,
@@ -254,7 +342,9 @@ struct Problem<'a> {
     ranges: Vec<Range>,
     control: StepControl,
     points: usize,
-    evaluations: Cell<usize>,
+    /// What is added to the residuals, if anything.
+    shift: &'a [f64],
+    evaluations: &'a Cell<usize>,
 }
 
 impl Problem<'_> {
@@ -271,6 +361,7 @@ impl Problem<'_> {
             }
             residuals.extend(found.iter().zip(test.rows()).map(|(stress, row)| (stress - row[2]) / scale));
         }
+        residuals.iter_mut().zip(self.shift).for_each(|(residual, shift)| *residual += shift);
         Ok(residuals)
     }
 
@@ -309,6 +400,35 @@ impl Problem<'_> {
             }
         }
         slopes
+    }
+
+    /// The parameters and S of a changed fit, from the fitted ones.
+    fn again(
+        &self,
+        change: Change<'_>,
+        theta: &[f64],
+        patience: usize,
+        stop: &dyn Fn() -> bool,
+    ) -> Option<(Vec<f64>, f64)> {
+        let (mut ranges, mut start) = (self.ranges.clone(), theta.to_vec());
+        let shift = match change {
+            Change::Shifted(shift) => shift,
+            Change::Held(k, value) => {
+                (ranges[k].bounds, start[k]) = ([value; 2], value);
+                &[]
+            }
+        };
+        let searched: Vec<usize> = (0..ranges.len()).filter(|&k| !ranges[k].is_fixed()).collect();
+        let problem = Problem { ranges, shift, ..*self };
+        if searched.is_empty() {
+            let residuals = problem.residuals(&start).ok()?;
+            return Some((start, residuals.iter().map(|r| r * r).sum()));
+        }
+        let x = searched.iter().map(|&k| problem.ranges[k].inward(start[k])).collect();
+        let walk = Walk { problem: &problem, searched: &searched, parameters: start };
+        let end = minimise(walk, x, patience.clamp(1, 1_000_000), stop)?;
+        let squares = end.state.1.iter().map(|r| r * r).sum();
+        Some((end.misfit.parameters, squares))
     }
 
     /// Derivatives by all parameters; zero of those that are held.

@@ -6,9 +6,9 @@ use core::str::FromStr;
 use piola_inelastic::{BergstromBoyce, Hardening, Mullins, PowerFlow, ReeseGovindjee, StepControl, Viscoplastic};
 use piola_solids::{Hencky, NeoHookeanCiarlet};
 
+use super::starts;
 use super::test::{HistoryTest, follow};
 use crate::FitError;
-use crate::sides::Loading;
 
 /// A parameter of a model: its name, whether it is in the unit of the stresses, and its bounds.
 pub type HistoryParameter = (&'static str, bool, [f64; 2]);
@@ -103,32 +103,12 @@ const SPRING: [HistoryParameter; 2] = [("shear_modulus", true, POSITIVE), ("firs
 const OVERSTRESS: [HistoryParameter; 2] =
     [("overstress_shear_modulus", true, POSITIVE), ("overstress_first_lame_parameter", true, POSITIVE)];
 
-/// n of P = μ (λ − λ⁻ⁿ), the stress of an incompressible neo-Hookean solid.
-const fn thinning(loading: Loading) -> i32 {
-    match loading {
-        Loading::Equibiaxial => 5,
-        Loading::Planar => 3,
-        _ => 2,
-    }
-}
-
-/// λ̄ = √(I₁/3) of the row of a test with the largest one, for constant volume.
-fn chain_stretch(test: &HistoryTest) -> f64 {
-    let first_invariant = |x: f64| match test.loading() {
-        Loading::SimpleShear => 3.0 + x * x,
-        Loading::Equibiaxial => 2.0 * x * x + x.powi(-4),
-        Loading::Planar => x * x + 1.0 + x.powi(-2),
-        _ => x * x + 2.0 / x,
-    };
-    test.rows().iter().map(|row| (first_invariant(row[1]) / 3.0).sqrt()).fold(1.0, f64::max)
-}
-
 impl AnyHistoryModel {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::BergstromBoyce, Self::ReeseGovindjee, Self::OgdenRoxburgh, Self::Viscoplastic];
 
-    /// Starts of a search about the stresses, stretches and times of tests: for [`fit_history`](super::fit_history), which searches from
-    /// one. First Lamé parameters, which tests with free sides hardly determine, are a hundred shear moduli; of metal one and a half (ν = 0.3).
+    /// Starts of a search about the stresses, stretches and times of tests: for [`fit_history_of_starts`](super::fit_history_of_starts). Elastic
+    /// moduli begin at secants of the tests, of metal at the steepest one. First Lamé parameters, which tests with free sides hardly determine, are a hundred shear moduli; of metal one and a half (ν = 0.3).
     ///
     /// # Example
     /// ```
@@ -141,63 +121,11 @@ impl AnyHistoryModel {
     /// ```
     #[must_use]
     pub fn starts(self, tests: &[HistoryTest]) -> Vec<Vec<f64>> {
-        // P = μ (λ − λ⁻ⁿ) of a neo-Hookean solid that keeps its volume; the row of the largest stress of each test.
-        let modulus = |test: &HistoryTest| {
-            let [_, stretch, stress] = *test.rows().iter().max_by(|a, b| a[2].abs().total_cmp(&b[2].abs()))?;
-            let strain = match test.loading() {
-                Loading::SimpleShear => stretch,
-                loading => stretch - stretch.powi(-thinning(loading)),
-            };
-            Some((stress / strain).abs()).filter(|modulus| 0.0 < *modulus && modulus.is_finite())
-        };
-        let mu = tests.iter().filter_map(modulus).fold(0.0, f64::max);
-        let mu = if 0.0 < mu { mu } else { 1.0 };
-        let largest = tests.iter().map(HistoryTest::largest_stress).fold(0.0, f64::max);
-        let duration = tests.iter().filter_map(|test| Some(test.rows().last()?[0])).fold(0.0, f64::max);
-        let duration = if 0.0 < duration { duration } else { 1.0 };
-        let first = tests.iter().flat_map(|test| test.rows().windows(2)).map(|rows| rows[1][0] - rows[0][0]);
-        let shortest = first.filter(|step| 0.0 < *step).fold(duration, f64::min);
-        // A time of relaxation near the shortest step, near the duration, and between them.
-        let times = [3.0 * shortest, (shortest * duration).sqrt(), 0.3 * duration];
-        let bulk = 100.0 * mu;
         match self {
-            Self::BergstromBoyce => {
-                // γ̇ = γ̇₀ (λ̄ − 1 + ξ)^c (τ/τ₀)^m is about 1/T: with γ̇₀ = 1/s, τ₀ = τ (T (λ̄ − 1 + ξ)^c)^(1/m).
-                let (power, slowing, perturbation) = (4.0, -0.5, 0.01);
-                let stretch = tests.iter().map(chain_stretch).fold(1.0, f64::max);
-                let resistance = (stretch - 1.0 + perturbation).powf(slowing);
-                let start = |time: &f64| {
-                    let stress = largest * (time * resistance).powf(1.0 / power);
-                    vec![mu, bulk, mu, bulk, 1.0, stress, power, slowing, perturbation]
-                };
-                times.iter().map(start).collect()
-            }
-            Self::ReeseGovindjee => times.iter().map(|time| vec![mu, bulk, mu, bulk, mu * time]).collect(),
-            Self::OgdenRoxburgh => {
-                [1.5, 3.0].iter().map(|softening| vec![mu, bulk, *softening, 0.1 * largest, 0.1]).collect()
-            }
-            Self::Viscoplastic => {
-                // A test beyond the yield stress shows less than the elastic modulus.
-                let steep = |test: &HistoryTest| {
-                    let rows = test.rows().iter().find(|row| 0.1 * test.largest_stress() < row[2].abs())?;
-                    // P = E (λ − 1) with E/μ at ν = 0.3: 2 (1 + ν), of equal stretches 2 (1 + ν)/(1 − ν), of a sheet 2/(1 − ν).
-                    let strain = match test.loading() {
-                        Loading::SimpleShear => rows[1],
-                        Loading::Equibiaxial => 2.6 / 0.7 * (rows[1] - 1.0),
-                        Loading::Planar => 2.0 / 0.7 * (rows[1] - 1.0),
-                        _ => 2.6 * (rows[1] - 1.0),
-                    };
-                    Some((rows[2] / strain).abs()).filter(|modulus| modulus.is_finite())
-                };
-                let mu = tests.iter().filter_map(steep).fold(mu, f64::max);
-                times
-                    .iter()
-                    .map(|time| {
-                        // The saturation stress is at least the yield stress.
-                        vec![mu, 1.5 * mu, 0.7 * largest, 0.1 * largest, 0.9 * largest, 5.0, 0.1 * largest * time]
-                    })
-                    .collect()
-            }
+            Self::BergstromBoyce => starts::bergstrom_boyce(tests),
+            Self::ReeseGovindjee => starts::reese_govindjee(tests),
+            Self::OgdenRoxburgh => starts::ogden_roxburgh(tests),
+            Self::Viscoplastic => starts::viscoplastic(tests),
         }
     }
 

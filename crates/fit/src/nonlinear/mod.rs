@@ -27,7 +27,7 @@ mod answers;
 mod data;
 mod model;
 
-pub use crate::{Autocorrelation, Criteria, Outcome, State};
+pub use crate::{Autocorrelation, Criteria, Intervals, Outcome, State};
 pub use data::{Extension, NonlinearData, NonlinearFlow, ShearResponse};
 pub use model::{NonlinearModel, RelaxationModes};
 
@@ -37,6 +37,7 @@ use nalgebra::DMatrix;
 use piola_fluids::AnyFluid;
 
 use crate::FitError;
+use crate::anew::{Anew, Change};
 use crate::estimates::{FitStatistics, statistics_of};
 use crate::search::{Misfit, Range, minimise};
 
@@ -45,6 +46,8 @@ use crate::search::{Misfit, Range, minimise};
 pub struct Options {
     /// The probability of the intervals.
     pub confidence: f64,
+    /// How intervals are found.
+    pub intervals: Intervals,
     /// Evaluations of a search, for each parameter.
     pub patience: usize,
     /// Where searches start, if not at a few places about the viscosities and rates of the data.
@@ -55,7 +58,13 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { confidence: 0.95, patience: 60, starts: Vec::new(), modes: RelaxationModes::default() }
+        Self {
+            confidence: 0.95,
+            intervals: Intervals::Linear,
+            patience: 60,
+            starts: Vec::new(),
+            modes: RelaxationModes::default(),
+        }
     }
 }
 
@@ -106,6 +115,8 @@ struct Walk<'p> {
     modes: &'p RelaxationModes,
     data: &'p [NonlinearData],
     ranges: &'p [Range],
+    /// What is added to the residuals, if anything.
+    shift: &'p [f64],
     evaluations: &'p Cell<usize>,
 }
 
@@ -122,6 +133,7 @@ impl Walk<'_> {
         }
         let measured = self.data.iter().flat_map(NonlinearData::rows);
         residuals.iter_mut().zip(measured).for_each(|(answer, row)| *answer = (*answer / row[1]).ln());
+        residuals.iter_mut().zip(self.shift).for_each(|(residual, shift)| *residual += shift);
         residuals.iter().all(|r| r.is_finite()).then_some(residuals)
     }
 
@@ -153,6 +165,31 @@ impl Walk<'_> {
             }
         }
         slopes
+    }
+}
+
+impl Walk<'_> {
+    /// The parameters and S of a changed fit, from the coordinates of the fitted one.
+    fn again(
+        &self,
+        change: Change<'_>,
+        x: &[f64],
+        patience: usize,
+        stop: &dyn Fn() -> bool,
+    ) -> Option<(Vec<f64>, f64)> {
+        let (shift, held) = match change {
+            Change::Shifted(shift) => (shift, None),
+            Change::Held(k, value) => (&[][..], Some((k, value))),
+        };
+        let mut ranges = self.ranges.to_vec();
+        let mut start = x.to_vec();
+        if let Some((k, value)) = held {
+            (ranges[k].bounds, start[k]) = ([value; 2], 0.0);
+        }
+        let walk = Walk { ranges: &ranges, shift, ..*self };
+        let end = minimise(walk, start, patience, stop)?;
+        let squares = end.state.1.iter().map(|r| r * r).sum();
+        Some((end.misfit.parameters(&end.state.0), squares))
     }
 }
 
@@ -236,7 +273,7 @@ pub fn fit_nonlinear_until(
             return Err(FitError::NumberOfValues { model, parameters: n, values });
         }
         let x = ranges.iter().zip(start).map(|(range, value)| range.inward(*value)).collect();
-        let walk = Walk { model, modes: &options.modes, data, ranges: &ranges, evaluations: &evaluations };
+        let walk = Walk { model, modes: &options.modes, data, ranges: &ranges, shift: &[], evaluations: &evaluations };
         if let Some(end) = minimise(walk, x, options.patience.max(1), stop) {
             let squares: f64 = end.state.1.iter().map(|r| r * r).sum();
             ends.push((squares, end));
@@ -255,19 +292,7 @@ pub fn fit_nonlinear_until(
     let (first, count) = model.places(&options.modes);
     sort_modes(&mut x[first..first + 2 * count]);
     let values = end.misfit.parameters(&x);
-    let is_at_bound = |k: usize| {
-        let [low, high] = ranges[k].bounds;
-        if high.is_finite() {
-            let near = 1e-5 * (high - low);
-            return values[k] - low <= near || high - values[k] <= near;
-        }
-        // Going all the way to the bound changes nothing.
-        let mut moved = values.clone();
-        moved[k] *= 1e-30;
-        let squares_there = end.misfit.evaluate(&moved).map(|r| r.iter().map(|r| r * r).sum::<f64>());
-        squares_there.is_some_and(|there| there <= squares * (1.0 + 1e-9) + f64::MIN_POSITIVE)
-    };
-    let at_bound: Vec<bool> = (0..n).map(is_at_bound).collect();
+    let at_bound: Vec<bool> = (0..n).map(|k| is_at_bound(&end.misfit, k, &values, squares)).collect();
     let mut slopes = end.misfit.slopes(&x, &residuals);
     for (k, range) in ranges.iter().enumerate() {
         let outward = range.outward(x[k])[1];
@@ -280,8 +305,26 @@ pub fn fit_nonlinear_until(
         series.push(these);
         rest = others;
     }
-    let FitStatistics { parameters, degrees_of_freedom, criteria, autocorrelation } =
+    let FitStatistics { mut parameters, degrees_of_freedom, criteria, autocorrelation } =
         statistics_of(&values, &bounds, &at_bound, &slopes, &series, options.confidence);
+    let fitted = Anew {
+        values: &values,
+        bounds: &bounds,
+        errors: &parameters.iter().map(|parameter| parameter.standard_error).collect::<Vec<_>>(),
+        series: &series,
+        degrees_of_freedom,
+        widening: autocorrelation.map_or(1.0, |found| found.widening),
+        confidence: options.confidence,
+    };
+    let walk = Walk { model, modes: &options.modes, data, ranges: &ranges, shift: &[], evaluations: &evaluations };
+    let mut again = |change: Change<'_>| {
+        let (values, squares) = walk.again(change, &x, options.patience.max(1), stop)?;
+        Some((sorted_modes(values, model.places(&options.modes)), squares))
+    };
+    let anew = fitted.intervals(options.intervals, &mut again);
+    for (parameter, interval) in parameters.iter_mut().zip(anew.into_iter().flatten()) {
+        parameter.interval = interval;
+    }
     let parameters = parameters.into_iter().zip(names).zip(&values).map(|((told, name), value)| NonlinearParameter {
         name,
         value: *value,
@@ -301,6 +344,25 @@ pub fn fit_nonlinear_until(
         evaluations: evaluations.get(),
         starts_that_agree,
     })
+}
+
+/// Whether a parameter is at its bound: near an end of a range, or where going all the way to zero changes nothing.
+fn is_at_bound(walk: &Walk<'_>, k: usize, values: &[f64], squares: f64) -> bool {
+    let [low, high] = walk.ranges[k].bounds;
+    if high.is_finite() {
+        let near = 1e-5 * (high - low);
+        return values[k] - low <= near || high - values[k] <= near;
+    }
+    let mut moved = values.to_vec();
+    moved[k] *= 1e-30;
+    let squares_there = walk.evaluate(&moved).map(|r| r.iter().map(|r| r * r).sum::<f64>());
+    squares_there.is_some_and(|there| there <= squares * (1.0 + 1e-9) + f64::MIN_POSITIVE)
+}
+
+/// Parameters with their modes sorted.
+fn sorted_modes(mut values: Vec<f64>, (first, count): (usize, usize)) -> Vec<f64> {
+    sort_modes(&mut values[first..first + 2 * count]);
+    values
 }
 
 /// Sorts pairs of a viscosity and a time by their times, the shortest first.

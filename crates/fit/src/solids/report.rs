@@ -2,6 +2,7 @@
 
 use super::search::{Best, Problem};
 use super::{Fit, Intervals, Model, Options, Parameter, Residuals, SolidParameter, StabilityReport, State, stability};
+use crate::anew::{Anew, Change};
 use crate::statistics::{Autocorrelation, Covariance, Criteria, interval, profile, student};
 
 /// A limit with an interval this many times its distance from its bound is not determined.
@@ -53,19 +54,23 @@ pub(super) fn result<M: Model>(
         let standard_error = covariance.standard_error(k).filter(|_| has_errors);
         let bounds = problem.bounds(k, theta);
         let interval = standard_error.zip(quantile).map(|(error, quantile)| match options.intervals {
-            Intervals::Linear => interval(theta[k], bounds, quantile * error),
+            // That of the bootstrap comes for all parameters at once.
+            Intervals::Linear | Intervals::Bootstrap { .. } => interval(theta[k], bounds, quantile * error),
             Intervals::Profile => {
                 let limit = best.squares + quantile * quantile * variance;
-                let mut squares = |value: f64| problem.least_with(best, k, value);
+                let mut squares = |value: f64| problem.again(Change::Held(k, value), best).map(|(_, squares)| squares);
                 profile(theta[k], bounds, error, (best.squares, limit), &mut squares)
             }
         });
         let (name, is_stress) = (parameter.name.clone(), parameter.is_stress);
         SolidParameter { name, is_stress, value: theta[k], standard_error, interval, state }
     };
+    let mut parameters: Vec<SolidParameter> = problem.parameters.iter().enumerate().map(estimate).collect();
+    let freedom = (degrees_of_freedom, widening);
+    resample(problem, best, &mut parameters, (options, values.as_slice()), freedom);
     Fit {
         model: problem.model.name(),
-        parameters: problem.parameters.iter().enumerate().map(estimate).collect(),
+        parameters,
         tests,
         weighted_squares: best.squares,
         degrees_of_freedom,
@@ -84,6 +89,54 @@ pub(super) fn result<M: Model>(
         starts,
         starts_that_agree,
         covariance: has_errors.then_some(covariance),
+    }
+}
+
+/// Intervals by the bootstrap, where they are asked for. Numbers at rest are not drawn.
+fn resample<M: Model>(
+    problem: &Problem<'_, M>,
+    best: &Best,
+    parameters: &mut [SolidParameter],
+    (options, values): (&Options, &[f64]),
+    (degrees_of_freedom, widening): (usize, f64),
+) {
+    if !matches!(options.intervals, Intervals::Bootstrap { .. }) || degrees_of_freedom == 0 {
+        return;
+    }
+    let mut row = 0;
+    let (mut series, mut places) = (Vec::new(), Vec::new());
+    for test in problem.data.tests() {
+        // In the order of the stretches, as neighbours are.
+        let mut points: Vec<(f64, usize)> =
+            test.abscissas().zip(row..).filter(|(_, i)| 0.0 < problem.weights[*i]).collect();
+        if test.table().mode().is_some() {
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        let stresses: Vec<f64> = test.stresses().collect();
+        let residual = |i: usize| values[i] - problem.weights[i] * stresses[i - row];
+        series.push(points.iter().map(|(_, i)| residual(*i)).collect::<Vec<f64>>());
+        places.extend(points.into_iter().map(|(_, i)| i));
+        row += test.len();
+    }
+    let fitted = Anew {
+        values: &best.parameters,
+        bounds: &(0..parameters.len()).map(|k| problem.bounds(k, &best.parameters)).collect::<Vec<_>>(),
+        errors: &parameters.iter().map(|parameter| parameter.standard_error).collect::<Vec<_>>(),
+        series: &series.iter().map(Vec::as_slice).collect::<Vec<_>>(),
+        degrees_of_freedom,
+        widening,
+        confidence: options.confidence,
+    };
+    let mut shifts = vec![0.0; row];
+    let anew = fitted.intervals(options.intervals, &mut |change| {
+        let Change::Shifted(of_points) = change else { return None };
+        places.iter().zip(of_points).for_each(|(place, shift)| shifts[*place] = *shift);
+        let (mut values, squares) = problem.again(Change::Shifted(&shifts), best)?;
+        problem.model.order(&mut values);
+        Some((values, squares))
+    });
+    for (parameter, interval) in parameters.iter_mut().zip(anew.into_iter().flatten()) {
+        parameter.interval = interval;
     }
 }
 

@@ -13,6 +13,7 @@ use piola_numerics::Gradient;
 
 use super::model::Fitted;
 use super::{Data, Model, Outcome, Parameter, Role, StableSign, linear, stability};
+use crate::anew::Change;
 use crate::search::{End, Misfit, Range, minimise};
 
 /// Parameters of one evaluation.
@@ -30,6 +31,8 @@ pub(super) struct Problem<'a, M> {
     /// Whether the signs that make terms stable are kept.
     pub(super) signs: bool,
     pub(super) patience: usize,
+    /// What is added to the weighted residuals, if anything.
+    shift: Vec<f64>,
     /// Whether the search shall end.
     pub(super) stop: &'a dyn Fn() -> bool,
     evaluations: &'a Cell<usize>,
@@ -53,7 +56,7 @@ impl<'a, M: Model> Problem<'a, M> {
         patience: usize,
         (stop, evaluations): (&'a dyn Fn() -> bool, &'a Cell<usize>),
     ) -> Self {
-        Self { model, data, parameters, weights, stress, signs, patience, stop, evaluations }
+        Self { model, data, parameters, weights, stress, signs, patience, shift: Vec::new(), stop, evaluations }
     }
 
     /// Evaluations of all stresses so far.
@@ -67,7 +70,10 @@ impl<'a, M: Model> Problem<'a, M> {
 
     fn observed(&self) -> DVector<f64> {
         let stresses = self.data.tests().iter().flat_map(super::Test::stresses);
-        DVector::from_iterator(self.weights.len(), stresses.zip(&self.weights).map(|(stress, weight)| stress * weight))
+        let weighted = stresses.zip(&self.weights).map(|(stress, weight)| stress * weight);
+        let mut observed = DVector::from_iterator(self.weights.len(), weighted);
+        observed.iter_mut().zip(&self.shift).for_each(|(observed, shift)| *observed -= shift);
+        observed
     }
 
     /// wᵢ Pᵢ and their derivatives.
@@ -249,13 +255,16 @@ impl<'a, M: Model> Problem<'a, M> {
         found.filter(allowed).unwrap_or(embedded)
     }
 
-    /// The least S with a parameter at a value, from the best one.
-    pub(super) fn least_with(&self, best: &Best, k: usize, value: f64) -> Option<f64> {
-        let mut parameters = self.parameters.clone();
-        parameters[k].bounds = [value; 2];
-        let fixed = Problem { parameters, weights: self.weights.clone(), ..*self };
-        let (found, _) = fixed.search(&[self.start_of(best)])?;
-        Some(found.squares)
+    /// The parameters and S of a changed fit, from the best ones. Whether the law is stable is not asked: most intervals reach beyond.
+    pub(super) fn again(&self, change: Change<'_>, best: &Best) -> Option<(Vec<f64>, f64)> {
+        let (mut parameters, mut shift) = (self.parameters.clone(), Vec::new());
+        match change {
+            Change::Held(k, value) => parameters[k].bounds = [value; 2],
+            Change::Shifted(of_rows) => shift = of_rows.to_vec(),
+        }
+        let changed = Problem { parameters, weights: self.weights.clone(), shift, ..*self };
+        let (found, _) = changed.search(&[self.start_of(best)])?;
+        Some((found.parameters, found.squares))
     }
 
     /// Where a parameter is searched for.

@@ -4,6 +4,8 @@
 mod fluids;
 #[cfg(feature = "history")]
 mod history;
+#[cfg(all(feature = "history", feature = "nonlinear"))]
+mod intervals;
 #[cfg(feature = "nonlinear")]
 mod nonlinear;
 #[cfg(feature = "solids")]

@@ -21,8 +21,8 @@ pub use table::HistoryMeasurements;
 
 use core::ops::ControlFlow;
 
-use piola_fit::FitError;
-use piola_fit::history::{HistoryModel as _, StepControl, fit_history_until};
+use piola_fit::history::{HistoryModel as _, fit_history_of_starts};
+use piola_fit::{FitError, Intervals};
 
 use crate::MeasuredError;
 use crate::comparison::{Comparison, Judged, Watch};
@@ -40,13 +40,15 @@ pub struct HistoryRequest {
     pub bounds: Vec<(AnyHistoryModel, String, [f64; 2])>,
     /// The probability of the intervals.
     pub confidence: f64,
+    /// How intervals are found.
+    pub intervals: Intervals,
 }
 
 impl HistoryRequest {
     /// A request for some laws.
     #[must_use]
     pub const fn of(laws: Vec<AnyHistoryModel>) -> Self {
-        Self { laws, bounds: Vec::new(), confidence: 0.95 }
+        Self { laws, bounds: Vec::new(), confidence: 0.95, intervals: Intervals::Linear }
     }
 
     /// Adds a bound written `bergstrom-boyce.stress_exponent=2..8`.
@@ -90,9 +92,6 @@ impl Judged for HistoryFit {
         self.autocorrelation.map_or(1.0, |found| found.widening)
     }
 }
-
-/// The accuracy of stresses where starts are tried, and evaluations for each unknown.
-const ROUGHLY: (f64, usize) = (1e-4, 25);
 
 /// Parameters that are held unless the request bounds them: tests with free sides hardly determine the Lamé parameters, and only a
 /// combination of `rate` and `stress` is determined.
@@ -159,36 +158,11 @@ fn fitted(
         request.bounds.iter().filter(|(other, ..)| *other == law).collect();
     let is_bounded = |name: &str| given.iter().any(|(_, parameter, _)| parameter == name);
     let tied = TiedLaw::new(law, is_bounded);
-    // From all starts roughly, then from the best one.
-    let mut best: Option<(HistoryFit, HistoryOptions)> = None;
-    let mut refused = None;
-    let (accuracy, patience) = ROUGHLY;
-    let rough = StepControl::new(accuracy).map_err(FitError::from)?;
-    for start in law.starts(&measurements.tests) {
-        let mut options = HistoryOptions::default();
-        options.confidence = request.confidence;
-        options.bounds = given.iter().map(|(_, parameter, range)| (parameter.clone(), *range)).collect();
-        for ((name, ..), value) in law.parameters().iter().zip(&start) {
-            if HELD.contains(name) && !is_bounded(name) {
-                options = options.with_bounds(name, [*value; 2]);
-            }
-        }
-        let mut sketch = options.clone().with_control(rough);
-        sketch.patience = patience;
-        match fit_history_until(&tied, &measurements.tests, &start, &sketch, stop) {
-            Ok(fit) if best.as_ref().is_none_or(|(best, _)| fit.weighted_squares < best.weighted_squares) => {
-                best = Some((fit, options));
-            }
-            Ok(_) => {}
-            Err(error) => refused = refused.or(Some(error)),
-        }
-        if stop() {
-            break;
-        }
-    }
-    let (best, options) = best.ok_or_else(|| refused.unwrap_or(FitError::NoTests))?;
-    if stop() {
-        return Ok(tied.filled(best));
-    }
-    Ok(tied.filled(fit_history_until(&tied, &measurements.tests, &best.values(), &options, stop)?))
+    let mut options = HistoryOptions::default();
+    options.confidence = request.confidence;
+    options.intervals = request.intervals;
+    options.bounds = given.iter().map(|(_, parameter, range)| (parameter.clone(), *range)).collect();
+    let hold: Vec<&str> = HELD.into_iter().filter(|name| !is_bounded(name)).collect();
+    let starts = law.starts(&measurements.tests);
+    Ok(tied.filled(fit_history_of_starts(&tied, &measurements.tests, &starts, &hold, &options, stop)?))
 }

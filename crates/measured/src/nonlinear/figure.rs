@@ -3,6 +3,7 @@
 use piola_charts::{LogPanel, figure};
 use piola_fit::nonlinear::{NonlinearData, NonlinearFlow, ShearResponse};
 
+use super::curves::unit_of_drive;
 use super::{NonlinearComparison, NonlinearTable};
 
 /// Title and axes of the panel of a flow.
@@ -30,19 +31,33 @@ const fn panel(flow: NonlinearFlow) -> (&'static str, [&'static str; 2]) {
 pub(super) fn drawn(table: &NonlinearTable, found: &NonlinearComparison) -> String {
     let shown = found.best().or_else(|| found.fits().next());
     let mut panels: Vec<LogPanel<'_>> = Vec::new();
+    let mut ends: Vec<Vec<String>> = Vec::new();
     for set in &table.flows {
         let (title, axes) = panel(set.flow());
         let place = panels.iter().position(|other| other.title == title && other.axes == axes);
         let place = place.unwrap_or_else(|| {
             panels.push(LogPanel { title, axes, marks: Vec::new(), curves: Vec::new(), band: Vec::new() });
+            ends.push(Vec::new());
             panels.len() - 1
         });
         let size = |[drive, answer]: &[f64; 2]| (*drive, answer.abs());
         panels[place].marks.extend(NonlinearData::rows(set).iter().map(size));
         if let Some((model, fitted)) = shown {
-            let curve = fitted.curve(model, set).unwrap_or_default();
-            panels[place].curves.push(curve.iter().map(size).collect());
+            let curve = fitted.curve(model, set);
+            if curve.in_words(set.flow()).is_some() {
+                let last = curve.points.last().map(|[last, _]| format!("{last:.3} {}", unit_of_drive(set.flow())));
+                ends[place].push(last.unwrap_or_else(|| "nothing".to_owned()));
+            }
+            panels[place].curves.push(curve.points.iter().map(size).collect());
         }
+    }
+    let told = |(panel, ends): (&LogPanel<'_>, &Vec<String>)| match ends.as_slice() {
+        [] => panel.title.to_owned(),
+        ends => format!("{}; curve ends at {}", panel.title, ends.join(", ")),
+    };
+    let titles: Vec<String> = panels.iter().zip(&ends).map(told).collect();
+    for (panel, title) in panels.iter_mut().zip(&titles) {
+        panel.title = title;
     }
     let columns = panels.len().clamp(1, 3);
     let rows = panels.len().div_ceil(columns).max(1);

@@ -12,6 +12,7 @@
 //! `# extension: planar` or `biaxial` says which; without it, it is uniaxial.
 
 mod columns;
+mod curves;
 mod figure;
 mod output;
 mod table;
@@ -22,8 +23,8 @@ pub use table::NonlinearTable;
 use core::ops::ControlFlow;
 use std::path::Path;
 
-use piola_fit::FitError;
 use piola_fit::nonlinear::{NonlinearFit, Options, ShearResponse, fit_nonlinear_until};
+use piola_fit::{FitError, Intervals};
 use piola_fluids::Relaxation;
 use serde_json::Value;
 
@@ -41,11 +42,13 @@ pub struct NonlinearRequest {
     pub modes: RelaxationModes,
     /// The probability of the intervals.
     pub confidence: f64,
+    /// How intervals are found.
+    pub intervals: Intervals,
 }
 
 impl Default for NonlinearRequest {
     fn default() -> Self {
-        Self { fluids: Vec::new(), modes: RelaxationModes::default(), confidence: 0.95 }
+        Self { fluids: Vec::new(), modes: RelaxationModes::default(), confidence: 0.95, intervals: Intervals::Linear }
     }
 }
 
@@ -111,12 +114,13 @@ pub fn compare_nonlinear_until(
     request: &NonlinearRequest,
     watch: Watch<'_>,
 ) -> Result<NonlinearComparison, MeasuredError> {
-    let NonlinearRequest { fluids, modes, confidence } = request;
+    let NonlinearRequest { fluids, modes, confidence, intervals } = request;
     if !(0.0 < *confidence && *confidence < 1.0) {
         return Err(FitError::ConfidenceOutOfRange { value: *confidence }.into());
     }
     modes.check()?;
-    let options = Options { confidence: *confidence, modes: modes.clone(), ..Options::default() };
+    let (modes, intervals) = (modes.clone(), *intervals);
+    let options = Options { confidence: *confidence, intervals, modes, ..Options::default() };
     let second = Some(ShearResponse::SecondNormalStressDifference);
     let has_second = table.flows.iter().any(|set| set.flow().shear_response() == second);
     let fluids = if fluids.is_empty() {

@@ -4,61 +4,13 @@ use core::fmt::Write as _;
 
 use piola_charts::{Folder, Written};
 use piola_fit::FitError;
-use piola_fit::nonlinear::{Extension, NonlinearData, NonlinearFlow, NonlinearModel, ShearResponse};
+use piola_fit::nonlinear::{NonlinearFlow, NonlinearModel};
 use serde_json::{Value, json};
 
 use super::columns::rate_of;
+use super::curves::words;
 use super::{FittedNonlinear, NonlinearComparison, NonlinearTable, RelaxationModes, figure};
 use crate::rheology::{largest, parameter_in_words, rms};
-
-/// "start-up of shear at 2 1/s, N1": a flow in words.
-pub(super) fn words(flow: NonlinearFlow) -> String {
-    let of_shear = |response| match response {
-        ShearResponse::ShearStress => "shear stress",
-        ShearResponse::FirstNormalStressDifference => "N1",
-        ShearResponse::SecondNormalStressDifference => "N2",
-    };
-    let of_extension = |extension| match extension {
-        Extension::Uniaxial => "uniaxial",
-        Extension::Planar => "planar",
-        Extension::Biaxial => "biaxial",
-    };
-    match flow {
-        NonlinearFlow::SteadyShear(response) => format!("steady shear, {}", of_shear(response)),
-        NonlinearFlow::ShearStartUp { shear_rate, response } => {
-            format!("start-up of shear at {shear_rate} 1/s, {}", of_shear(response))
-        }
-        NonlinearFlow::SteadyExtension(extension) => format!("steady {} extension", of_extension(extension)),
-        NonlinearFlow::ExtensionStartUp { extension, rate } => {
-            format!("start-up of {} extension at {rate} 1/s", of_extension(extension))
-        }
-        _ => "another flow".to_owned(),
-    }
-}
-
-impl FittedNonlinear {
-    /// Points of a curve through the drives of a flow, evenly in their logarithms: (drive, answer).
-    pub(super) fn curve(&self, model: NonlinearModel, set: &NonlinearData) -> Result<Vec<[f64; 2]>, FitError> {
-        const POINTS: usize = 60;
-        let drives: Vec<f64> = match set.rows() {
-            [first, .., last] if first[0] < last[0] => {
-                let share = |k: usize| k as f64 / (POINTS - 1) as f64;
-                (0..POINTS).map(|k| first[0] * (last[0] / first[0]).powf(share(k))).collect()
-            }
-            rows => rows.iter().map(|row| row[0]).take(1).collect(),
-        };
-        let values: Vec<f64> = self.fit.parameters.iter().map(|parameter| parameter.value).collect();
-        let answers = model.answers(&self.modes, &values, set.flow(), &drives)?;
-        Ok(drives.into_iter().zip(answers).map(|(drive, answer)| [drive, answer]).collect())
-    }
-}
-
-impl FittedNonlinear {
-    /// Why `predictions.csv` and the figure have no curve of a flow; none where they have one.
-    fn why_no_curve(&self, model: NonlinearModel, set: &NonlinearData) -> Option<String> {
-        self.curve(model, set).err().map(|error| error.to_string())
-    }
-}
 
 impl NonlinearComparison {
     /// The numbers, as they stand in `summary.json`.
@@ -72,7 +24,7 @@ impl NonlinearComparison {
             let fit = &found.fit;
             let flows = table.flows.iter().zip(&fit.residuals).map(|(set, residuals)| {
                 json!({ "flow": words(set.flow()), "rows": residuals.len(), "rms_residual": rms(residuals),
-                        "largest_residual": largest(residuals), "no_curve": found.why_no_curve(*model, set) })
+                        "largest_residual": largest(residuals), "no_curve": found.curve(*model, set).in_words(set.flow()) })
             });
             json!({
                 "fluid": model.name(),
@@ -155,8 +107,8 @@ impl NonlinearComparison {
                 let _ = writeln!(text, "{line}");
             }
             for set in &table.flows {
-                if let Some(why) = found.why_no_curve(fluid, set) {
-                    let _ = writeln!(text, "  no curve of {}: {why}", words(set.flow()));
+                if let Some(why) = found.curve(fluid, set).in_words(set.flow()) {
+                    let _ = writeln!(text, "  {why}");
                 }
             }
         }
@@ -174,7 +126,7 @@ impl NonlinearComparison {
         let mut predictions = String::from("fluid,flow,rate [1/s],time [s],stress [Pa]\n");
         for (fluid, found) in self.fits() {
             for set in &table.flows {
-                for [drive, answer] in found.curve(fluid, set).unwrap_or_default() {
+                for [drive, answer] in found.curve(fluid, set).points {
                     let _ = writeln!(predictions, "{fluid},{},{answer:?}", drives(set.flow(), drive));
                 }
             }

@@ -221,6 +221,10 @@ macro_rules! banded {
 pub(super) fn assumption(below: BelowSmallest) -> Option<String> {
     let speed = "the speed difference is";
     match below {
+        BelowSmallest::Yield => Some(
+            "the fluid seems to yield: the shear rate rises from none, and the band holds every curve that does"
+                .to_owned(),
+        ),
         BelowSmallest::Newtonian => Some(format!("{speed} proportional to the torque")),
         BelowSmallest::PowerLaw { exponent } => {
             Some(format!("{speed} proportional to the power {exponent:.4} of the torque"))

@@ -11,9 +11,11 @@
 //! | `stress` | first Piola–Kirchhoff stress; of volumetric tests the pressure |
 //! | `lateral stretch` or `lateral strain` | of the side: λ₂ of uniaxial, λ₁ of transverse, λ₃ of equibiaxial and planar tests |
 
+mod anew;
 pub(crate) mod columns;
 mod table;
 
+pub use piola_fit::Intervals;
 pub use piola_fit::sides::{Loading, SidesFit, SidesModel, SidesOptions, SidesTest};
 pub use table::SidesMeasurements;
 
@@ -38,7 +40,7 @@ pub struct SidesComparison {
     pub laws: Vec<(SidesModel, Result<SidesFit, FitError>)>,
 }
 
-/// Fits each law.
+/// Fits each law, with linear intervals.
 ///
 /// # Example
 /// ```
@@ -53,7 +55,34 @@ pub struct SidesComparison {
 /// ```
 #[must_use]
 pub fn compare_sides(measurements: &SidesMeasurements, laws: &[SidesModel], options: &SidesOptions) -> SidesComparison {
-    let fitted = laws.iter().map(|law| (*law, fit_sides(*law, &measurements.tests, options)));
+    compare_sides_with(measurements, laws, options, Intervals::Linear)
+}
+
+/// The same with intervals of any kind. Those by profile likelihood and by the bootstrap make many fits, each from all starts.
+///
+/// # Example
+/// ```
+/// use piola_measured::sides::{Intervals, SidesMeasurements, SidesOptions, compare_sides_with};
+/// let text = "mode,stretch,stress [MPa],lateral stretch\nuniaxial,0.5,-1.51,1\nuniaxial,0.8,-0.45,1\nuniaxial,0.9,-0.21,1\n";
+/// let measurements = SidesMeasurements::parse("foam.csv", text)?;
+/// let laws = ["hyperfoam:1".parse()?];
+/// let found = compare_sides_with(&measurements, &laws, &SidesOptions::default(), Intervals::Profile);
+/// let (_, foam) = found.fits().next().expect("a fit");
+/// let [low, high] = foam.parameters[0].interval.expect("determined");
+/// assert!(low < 1.0 && 1.0 < high);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn compare_sides_with(
+    measurements: &SidesMeasurements,
+    laws: &[SidesModel],
+    options: &SidesOptions,
+    intervals: Intervals,
+) -> SidesComparison {
+    let fitted = laws.iter().map(|law| {
+        let fit = fit_sides(*law, &measurements.tests, options);
+        (*law, fit.map(|fit| anew::with_intervals(fit, *law, &measurements.tests, options, intervals)))
+    });
     SidesComparison { laws: fitted.collect() }
 }
 

@@ -108,6 +108,34 @@ fn invalid_modes_are_refused_before_anything_is_fitted_and_results_say_how_they_
     assert!(shown.contains("  no curve of steady shear, N1: the number of relaxation modes is 0"), "{shown}");
 }
 
+/// Oldroyd's fluid B bears a steady extension below the rate 1/(2 λ) alone.
+#[test]
+fn a_curve_is_drawn_as_far_as_the_fluid_has_answers_and_says_where_it_stops() {
+    let text = "extension rate [1/s],stress [Pa]\n0.1,0.91617458\n0.2,1.86984127\n0.4,3.92727273\n1,12.6\n";
+    let table = NonlinearTable::parse("melt.csv", text).unwrap_or_else(|error| panic!("{error}"));
+    let mut request = NonlinearRequest::default();
+    request.fluids = vec![NonlinearModel::OldroydB];
+    let mut found = compare_nonlinear(&table, &request).unwrap_or_else(|error| panic!("{error}"));
+    assert!(!found.table(&table).contains("stops after"));
+    if let Ok(fit) = &mut found.candidates[0].fit {
+        fit.fit.parameters[2].value = 1.0; // λ: the curve ends before 0.5 1/s
+    }
+    let shown = found.table(&table);
+    assert!(
+        shown.contains("the curve of steady uniaxial extension stops after 0.4") && shown.contains("1/s: "),
+        "{shown}"
+    );
+    let path = folder("stops");
+    let out = piola_charts::Folder::prepare(&path.join("out")).unwrap_or_else(|error| panic!("{error}"));
+    assert!(found.write(&out, &table).failures.is_empty());
+    let read = |name: &str| std::fs::read_to_string(path.join("out").join(name)).unwrap_or_default();
+    let figure = read("fit.svg");
+    assert!(figure.contains("steady extension; curve ends at 0.4") && figure.contains("<polyline"), "{figure}");
+    let lines = read("predictions.csv").lines().count();
+    assert!(20 < lines && lines < 61, "{lines}");
+    let _ = std::fs::remove_dir_all(&path);
+}
+
 #[test]
 fn tables_that_cannot_be_read_are_refused_with_their_line() {
     for (text, message) in [

@@ -3,8 +3,6 @@
 //! Matrices of B-splines at rising abscissas are totally positive: elimination needs no exchange of rows (C. de Boor, A. Pinkus, 1977),
 //! and memory and time grow with the number of rows.
 
-use nalgebra::DMatrix;
-
 /// The highest degree of splines.
 pub(super) const HIGHEST: usize = 9;
 /// Entries of a row: the diagonal in the middle.
@@ -105,64 +103,5 @@ impl Banded {
             }
         }
         begin..end
-    }
-}
-
-/// Rows (first column, values) of A and a right side, gathered by ranges of columns.
-///
-/// R of [A b] = Q R, its last column Qᵀ b, and the length of the rest of b: of rows that come sorted, and in memory that does not grow with
-/// their number.
-#[derive(Debug)]
-pub(super) struct Gathered {
-    columns: usize,
-    /// R with Qᵀ b as its last column.
-    triangle: DMatrix<f64>,
-    waiting: Vec<Vec<f64>>,
-    /// The squared length of the right side beyond all columns.
-    beyond: f64,
-}
-
-/// Rows that are gathered at once.
-const AT_ONCE: usize = 256;
-
-impl Gathered {
-    pub(super) fn new(columns: usize) -> Self {
-        Self { columns, triangle: DMatrix::zeros(0, columns + 1), waiting: Vec::new(), beyond: 0.0 }
-    }
-
-    pub(super) fn add(&mut self, first: usize, values: &[f64], right: f64) {
-        let mut row = vec![0.0; self.columns + 1];
-        row[first..first + values.len()].copy_from_slice(values);
-        row[self.columns] = right;
-        self.waiting.push(row);
-        if AT_ONCE <= self.waiting.len() {
-            self.gather();
-        }
-    }
-
-    fn gather(&mut self) {
-        let (old, new) = (self.triangle.nrows(), self.waiting.len());
-        let stack = DMatrix::from_fn(old + new, self.columns + 1, |i, j| {
-            if i < old { self.triangle[(i, j)] } else { self.waiting[i - old][j] }
-        });
-        self.waiting.clear();
-        self.triangle = stack.qr().r();
-        let corner = self.triangle.nrows();
-        if self.columns < corner {
-            self.beyond += self.triangle[(self.columns, self.columns)].powi(2);
-            self.triangle = self.triangle.rows(0, self.columns).into_owned();
-        }
-    }
-
-    /// R, Qᵀ b and |b|² beyond; `None` for fewer rows than columns.
-    pub(super) fn finish(mut self) -> Option<(DMatrix<f64>, Vec<f64>, f64)> {
-        if !self.waiting.is_empty() {
-            self.gather();
-        }
-        if self.triangle.nrows() < self.columns {
-            return None;
-        }
-        let right = self.triangle.column(self.columns).iter().copied().collect();
-        Some((self.triangle.columns(0, self.columns).into_owned(), right, self.beyond))
     }
 }

@@ -14,6 +14,7 @@
 use piola_numerics::{Dual, Real};
 
 use super::geometry::{ChannelGeometry, CouetteGeometry, PipeGeometry, PlatesGeometry};
+use super::log_slope::FOUR;
 use super::series::{self, Order};
 use super::splines::Derivatives;
 use crate::ViscometryError;
@@ -435,14 +436,6 @@ pub fn couette_narrow_gap(
 
 /// Panels of the gap in the integral of the centrifugal force.
 const PANELS: usize = 32;
-/// Gauss and Legendre's four points of [0, 1].
-const FOUR: [(f64, f64); 4] = [
-    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
-    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
-    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
-    (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
-];
-
 /// The difference of the radial stresses with the centrifugal part made good, Pa, of which ψ is the derivative: what the series takes to
 /// σ₂ − σ₁ at the inner cylinder.
 ///

@@ -15,8 +15,8 @@
 //!
 //! A table needs a derivative, which noise spoils: its logarithms are smoothed by a stated criterion ([`Smoothing`]), and the curve that
 //! comes out has a band. Exact rows are interpolated by splines of degree 7; their bands hold the differences to other degrees and to
-//! curves without one of the rows. Noisy rows are smoothed by penalised splines; their bands hold the whole curve at once with the
-//! stated confidence, the bias of smoothing included.
+//! curves without one of the rows. Noisy rows are smoothed along the curve, by penalised splines of the logarithm of its slope; their bands hold the whole
+//! curve at once with the stated confidence.
 //!
 //! # Example
 //! A Newtonian fluid of viscosity 2 in a pipe of radius 1, Q = π c/16.
@@ -40,13 +40,17 @@ mod curve;
 pub mod functions;
 mod geometry;
 mod inertia;
+mod log_slope;
+mod plain;
 mod repeats;
 mod rotational;
 mod rule;
 mod series;
+mod smoother;
 mod smoothing;
 mod splines;
 mod table;
+mod yielding;
 
 pub use corrections::{Capillary, EndCorrection, EndPoint, SlipCorrection, SlipPoint, end_correction, slip_at_walls};
 pub use curve::{BelowSmallest, Monotonicity, Options, Rise};
@@ -60,7 +64,7 @@ pub use table::{FlowTable, Noise};
 
 use crate::ViscometryError;
 use curve::Recovered;
-use rule::Rule;
+use rule::{Below, Rule};
 use series::Order;
 
 /// A recovered point with its band.
@@ -312,7 +316,7 @@ pub fn couette(table: &FlowTable<CouetteGeometry>) -> Result<FlowCurve, Viscomet
 /// # Errors
 /// As [`pipe`].
 pub fn couette_with(table: &FlowTable<CouetteGeometry>, options: Options) -> Result<FlowCurve, ViscometryError> {
-    let rule = Rule::Series { step: table.geometry.step(), order: Order::Full, exponent: None };
+    let rule = Rule::Series { step: table.geometry.step(), order: Order::Full, below: Below::Powers };
     Ok(FlowCurve { recovered: Recovered::new(table, rule, table.geometry.stress_per_torque(), options)? })
 }
 
@@ -349,7 +353,7 @@ pub fn normal_stress_with(
     table: &FlowTable<CouetteGeometry>,
     options: Options,
 ) -> Result<NormalStressCurve, ViscometryError> {
-    let rule = Rule::Series { step: table.geometry.step(), order: Order::Full, exponent: None };
+    let rule = Rule::Series { step: table.geometry.step(), order: Order::Full, below: Below::Powers };
     let recovered = Recovered::new(table, rule, table.geometry.stress_per_torque(), options)?;
     Ok(NormalStressCurve { recovered })
 }

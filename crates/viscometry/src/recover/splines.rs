@@ -131,6 +131,11 @@ impl Splines {
         (first, all[0])
     }
 
+    /// The first spline at `u`, and those that do not vanish there with their derivatives.
+    pub(super) fn derivatives(&self, u: f64) -> (usize, [[f64; HIGHEST + 1]; 5]) {
+        self.at(u)
+    }
+
     /// The factors of the matrix of all splines at as many abscissas.
     pub(super) fn factors(&self, abscissas: &[f64]) -> Option<Banded> {
         let rows: Vec<(usize, [f64; HIGHEST + 1])> = abscissas.iter().map(|&u| self.values(u)).collect();

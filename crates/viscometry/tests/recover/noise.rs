@@ -32,26 +32,27 @@ fn held(case: &Value, flow: &str, trials: u32) -> u32 {
     held
 }
 
-/// A thousand trials of every fluid: the test of each flow is apart, so that they run beside one another.
+/// A hundred trials of every fluid, of which a coverage of 95 % holds 95 ± 2.2: three deviations are allowed. The test of each flow is apart, so
+/// that they run beside one another.
 fn every_fluid(flow: &str) {
     for case in cases() {
-        let held = held(&case, flow, 1000);
-        assert!(900 <= held, "{} {flow}: {held}", text(&case["id"]));
+        let held = held(&case, flow, 100);
+        assert!(88 <= held, "{} {flow}: {held}", text(&case["id"]));
     }
 }
 
 #[test]
-fn bands_of_pipes_with_a_percent_of_noise_hold_the_truth_in_nine_of_ten_of_a_thousand_trials() {
+fn bands_of_pipes_with_a_percent_of_noise_hold_the_truth_as_often_as_they_say() {
     every_fluid("pipe");
 }
 
 #[test]
-fn bands_of_channels_with_a_percent_of_noise_hold_the_truth_in_nine_of_ten_of_a_thousand_trials() {
+fn bands_of_channels_with_a_percent_of_noise_hold_the_truth_as_often_as_they_say() {
     every_fluid("channel");
 }
 
 #[test]
-fn bands_of_coaxial_cylinders_with_a_percent_of_noise_hold_the_truth_in_nine_of_ten_of_a_thousand_trials() {
+fn bands_of_coaxial_cylinders_with_a_percent_of_noise_hold_the_truth_as_often_as_they_say() {
     every_fluid("couette");
 }
 
