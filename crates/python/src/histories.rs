@@ -46,7 +46,6 @@ impl History {
     }
 
     /// Writes the states of points of the body as it was made.
-    #[expect(clippy::needless_pass_by_value, reason = "borrows of arrays end here")]
     fn initial_states(&self, layout: &str, mut states: Write<'_>) -> PyResult<()> {
         let layout = choice("layout of states", &StateLayout::ALL, layout)?;
         initial_states(&self.0, layout, numbers_mut(&mut states)?).map_err(refused)
