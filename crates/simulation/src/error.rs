@@ -146,7 +146,7 @@ pub enum SimulationError {
     },
     /// Rolling bodies beside constraints of other kinds.
     #[error(
-        "bodies that roll stand beside constraints of other kinds; all constraints of a mechanism roll, or none does"
+        "the mechanism has constraints of type rolling and of other types; either all of its constraints are of type rolling, or none is"
     )]
     RollingWithOthers,
     /// A method that constraints do not allow.

@@ -152,7 +152,11 @@ impl HeavyTop {
     /// turn, about the arm.
     ///
     /// # Accuracy
-    /// Some tens of ulps of the turns. Where the axis passes through the vertical itself, half a turn is that before or after it.
+    /// Some tens of ulps of the turns.
+    ///
+    /// Where the arm passes exactly through the vertical, φ and ψ have no limit. The first turn jumps by π where the arm points
+    /// down, the second where it points up, so that φ and ψ each jump by π. In that instant the turn is the one before or after
+    /// the jump.
     ///
     /// # Example
     /// A top that sleeps turns about the vertical alone.

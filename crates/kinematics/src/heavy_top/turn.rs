@@ -8,7 +8,7 @@
 //!
 //! so that nothing is lost where y₁ = 1 + u₁ is small, or zero.
 
-use core::f64::consts::PI;
+use core::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Complex;
 
@@ -145,7 +145,9 @@ impl Part {
         let Some([along, across]) = self.arc else { return angle };
         // Half a turn in each half period.
         let half_turns = PI * half_periods * 1.0_f64.copysign(across);
-        angle + half_turns + (across * sn).atan2(along * (cn * dn))
+        let (along, across) = (along * (cn * dn), across * sn);
+        // In the vertical itself as in `at`.
+        angle + half_turns + if 0.0 < along { across.atan2(along) } else { FRAC_PI_2.copysign(across) }
     }
 
     fn at(&self, nutation: &Nutation, phase: &Phase, t: f64, own: f64) -> Complex<f64> {

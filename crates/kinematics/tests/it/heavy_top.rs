@@ -164,6 +164,91 @@ fn motions_near_their_special_cases_go_on() {
     assert_eq!(compared, 2304);
 }
 
+/// The directions of q₀ + i q₃ and q₁ + i q₂, turned by the turns from those at the start, are those at t: both with one sign.
+fn assert_turns_belong(motion: &HeavyTop, t: f64) {
+    let halves = |t: f64| {
+        let q = motion.at(t).0;
+        [[q.w, q.z], [q.x, q.y]]
+    };
+    let (start, now, turns) = (halves(0.0), halves(t), motion.turns(t));
+    let found = [0, 1].map(|i| {
+        let (size, (sine, cosine)) = (now[i][0].hypot(now[i][1]) / start[i][0].hypot(start[i][1]), turns[i].sin_cos());
+        let [re, im] = start[i];
+        [size * (cosine * re - sine * im), size * (sine * re + cosine * im)]
+    });
+    let (found, now) = (found.as_flattened(), now.as_flattened());
+    let sign = 1.0_f64.copysign(found.iter().zip(now).map(|(a, b)| a * b).sum());
+    let now: Vec<f64> = now.iter().map(|x| sign * x).collect();
+    let tolerance = Tol::ulps(256.0).times(1.0 + turns[0].abs() + turns[1].abs());
+    assert_close_at_scale(&format!("turns after {t}"), found, &now, 1.0, tolerance);
+}
+
+/// Precession and own turn of tops that keep away from the vertical, counted in small steps.
+#[test]
+fn turns_are_those_counted_in_small_steps() {
+    let (inertia, weight) = (Inertia::principal([1.0, 1.0, 0.5]).unwrap(), Vector3::new(0.0, 0.0, 1.0));
+    for (tilt, omega) in
+        [(0.5, [0.0, 0.0, 9.0]), (1.0, [0.3, -0.2, -7.0]), (2.5, [1.0, 0.9, 1.0]), (1.5, [0.5, 2.0, 0.0])]
+    {
+        let motion = HeavyTop::new(&inertia, weight, Attitude::about_x(tilt), omega.into()).unwrap();
+        let angles = |t: f64| {
+            let q = motion.at(t).0;
+            [q.z.atan2(q.w), q.y.atan2(q.x)]
+        };
+        for direction in [1.0, -1.0] {
+            let (mut before, mut counted) = (angles(0.0), [0.0; 2]);
+            for step in 1..=4000 {
+                let t = direction * 5e-3 * f64::from(step);
+                let now = angles(t);
+                for i in 0..2 {
+                    // An attitude has two quaternions: angles are those but for π.
+                    let change = now[i] - before[i];
+                    counted[i] += change - PI * (change / PI).round();
+                }
+                before = now;
+                if step % 500 == 0 {
+                    let bound = Tol::stated(1e-11, "sums of 4000 angles");
+                    assert_close("turns", &motion.turns(t), &counted, bound);
+                    assert_turns_belong(&motion, t);
+                }
+            }
+            assert!(3.0 < counted[0].abs().max(counted[1].abs()), "{counted:?}");
+        }
+    }
+}
+
+/// A body that moves in a vertical plane turns by jumps of π alone: the first where the arm points down, the second where it points up.
+#[test]
+fn turns_of_a_pendulum_count_its_passages_of_the_vertical() {
+    let (inertia, weight) = (Inertia::principal([1.0, 1.0, 0.5]).unwrap(), Vector3::new(0.0, 0.0, 1.0));
+    // Below 2 rad/s it swings, above it goes over the top.
+    for (azimuth, tilt, rate, over) in [
+        (0.0, 0.5, 0.0, false),
+        (0.0, 2.0, 0.3, false),
+        (0.0, 0.5, 2.5, true),
+        (0.0, 3.0, -4.0, true),
+        (0.7, 1.0, 3.0, true),
+    ] {
+        let start = Attitude::about_z(azimuth).product(Attitude::about_x(tilt));
+        let motion = HeavyTop::new(&inertia, weight, start, Vector3::new(rate, 0.0, 0.0)).unwrap();
+        let period = motion.period_of_nutation();
+        for k in [1.0, 2.0, 3.0, 8.0, -1.0, -5.0] {
+            let [down, up] = motion.turns(k * period);
+            let expected = [PI * k, if over { PI * k } else { 0.0 }].map(f64::abs);
+            assert_close("half turns", &[down.abs(), up.abs()], &expected, Tol::ulps(64.0));
+        }
+        for step in -300..300 {
+            assert_turns_belong(&motion, 0.013 * f64::from(step) * period);
+        }
+    }
+    // In the vertical itself at the start.
+    let motion = HeavyTop::new(&inertia, weight, Attitude::about_x(PI), Vector3::new(1.0, 0.0, 0.0)).unwrap();
+    let [down, up] = motion.turns(0.0);
+    assert_eq!([down, up], [0.0, 0.0]);
+    let down = motion.turns(0.25 * motion.period_of_nutation())[0].abs();
+    assert!(down.min((down - PI).abs()) < 1e-14, "{down}");
+}
+
 /// Without weight it is free rotation.
 #[test]
 fn without_weight_it_turns_freely() {

@@ -10,6 +10,9 @@ use crate::error::MultibodyError;
 /// The least share of its own of a condition below which a state lies beside a singular position.
 const BESIDE: f64 = 0.05;
 
+/// The part of the largest of the least shares so far from which a run may be begun anew: it then soon knows the usual share again.
+const APART: f64 = 0.5;
+
 /// The least share below which a step must not end: there rounding, ε/x² at the distance x, exceeds the error of the method.
 const CLOSE_BY: f64 = 1e-6;
 
@@ -69,6 +72,9 @@ pub struct ClosedMotion<'a, F> {
     passages: Passages,
     /// The state of a stage, brought onto the smooth branch.
     stage: (Vec<f64>, Vec<f64>),
+    /// The least share of the last accepted or refused state, and the largest of them so far.
+    last_share: f64,
+    usual_share: f64,
     /// Whether the step begins, and the next one would begin, beside a singular position.
     beside: [bool; 2],
     stops: bool,
@@ -87,6 +93,8 @@ impl ClosedTree {
             forces,
             passages: Passages::of(self.conditions, self.tree.freedoms),
             stage: (vec![0.0; self.tree.coordinates], vec![0.0; self.tree.freedoms]),
+            last_share: 0.0,
+            usual_share: 0.0,
             beside: [false; 2],
             stops: false,
             stopped: None,
@@ -121,17 +129,25 @@ impl<F> ClosedMotion<'_, F> {
     }
 
     /// Whether no singular position is near: then a motion that is [begun anew](Self::restart) at the last accepted state goes on as
-    /// this one does, but for rounding.
+    /// this one does, within its tolerance.
+    ///
+    /// No singular position is near where the conditions are at least half as independent as they have been since the start.
     pub const fn is_apart(&self) -> bool {
         let [now, next] = self.beside;
-        !now && !next && self.close_by == 0 && !self.passages.is_between()
+        !now && !next && self.close_by == 0 && !self.passages.is_between() && self.is_usual()
     }
 
     /// Forgets the run before: the next evaluation is the start of another one.
     pub fn restart(&mut self) {
         self.work.usual_rank = 0;
+        self.work.largest.fill(0.0);
         self.passages.clear();
         (self.beside, self.stopped, self.close_by) = ([false; 2], None, 0);
+        (self.last_share, self.usual_share) = (0.0, 0.0);
+    }
+
+    const fn is_usual(&self) -> bool {
+        APART * self.usual_share <= self.last_share
     }
 
     fn go_on(&self) -> Result<(), MultibodyError> {
@@ -187,6 +203,8 @@ impl<F: FnMut(f64, &[f64], &[f64], &mut [f64])> Field for ClosedMotion<'_, F> {
         self.work.is_closed = true;
         self.closed.project(&mut self.work, q, v, t)?;
         let (share, condition) = self.work.least_share();
+        self.last_share = share;
+        self.usual_share = self.usual_share.max(share);
         self.beside[1] = (CLOSE_BY..BESIDE).contains(&share);
         if share < CLOSE_BY {
             q.copy_from_slice(&self.work.start_q);

@@ -38,7 +38,7 @@ pub struct LoopWorkspace {
     square: Vec<f64>,
     pub(super) scales: Vec<f64>,
     /// The largest diagonal entries of G M⁻¹ Gᵀ so far.
-    largest: Vec<f64>,
+    pub(super) largest: Vec<f64>,
     shares: Vec<f64>,
     order: Vec<usize>,
     short: Vec<f64>,

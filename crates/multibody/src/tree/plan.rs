@@ -20,7 +20,7 @@ use crate::link::Kind;
 /// assert_eq!(
 ///     plan.to_string(),
 ///     "2 bodies in 1 link; merged: weld; folded: 1 of 1 turn about a coordinate axis, without products of matrices; \
-///      a joint that changes alone moves 1.0 of 1 link in the mean: KeptDynamics and KeptMassMatrix keep the rest"
+///      a joint that changes alone moves 1.0 of 1 link in the mean: KeptMassMatrix keeps the rest, KeptDynamics their motions"
 /// );
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -38,8 +38,9 @@ pub struct TreePlan {
     /// Those of them about a coordinate axis of their link: they multiply no matrices.
     pub aligned: usize,
     /// The links that each joint moves, its own among them, summed over the links. A joint that changes alone moves
-    /// `moved / links` of them in the mean: the rest is what [`KeptDynamics`](crate::KeptDynamics) and
-    /// [`KeptMassMatrix`](crate::KeptMassMatrix) keep. It is half the links of a chain, and few of a tree with many branches.
+    /// `moved / links` of them in the mean: half the links of a chain, and few of a tree with many branches.
+    /// [`KeptMassMatrix`](crate::KeptMassMatrix) keeps the places of the others, and [`KeptDynamics`](crate::KeptDynamics) their
+    /// motions. Its forward dynamics computes the accelerations of all links again.
     pub moved: usize,
 }
 
@@ -81,7 +82,7 @@ impl fmt::Display for TreePlan {
         write!(f, "; folded: {} of {turns} about a coordinate axis, without products of matrices", self.aligned)?;
         let mean = self.moved as f64 / self.links.max(1) as f64;
         let links = plural(self.links, "link", "links");
-        let keeping = "KeptDynamics and KeptMassMatrix keep the rest";
+        let keeping = "KeptMassMatrix keeps the rest, KeptDynamics their motions";
         write!(f, "; a joint that changes alone moves {mean:.1} of {links} in the mean: {keeping}")
     }
 }

@@ -157,6 +157,37 @@ fn restarted_motion_lists_the_positions_of_its_own_run() {
     assert_eq!(ends[0], ends[1]);
 }
 
+/// Near an aligned position the run before, from the position in which the loop is most independent, must leave no trace.
+#[test]
+fn restarted_motion_equals_a_new_one() {
+    let closed = ladder(1, 0.0);
+    let forces = |_t: f64, _q: &[f64], _v: &[f64], tau: &mut [f64]| tau.fill(0.0);
+    let run = |motion: &mut piola_multibody::ClosedMotion<'_, _>, start: Vec<f64>| {
+        let mut state = State::new(0.0, start).unwrap();
+        let report = method(1e-9).integrate_to(motion, &mut state, 1.0).unwrap();
+        (state, report.steps, motion.singular_positions().to_vec())
+    };
+    let near = vec![0.15, -0.15, 0.15, -2.0, 2.0, -2.0];
+    let (mut anew, mut new) = (closed.motion(forces), closed.motion(forces));
+    run(&mut anew, start(1, 0.0));
+    anew.restart();
+    assert_eq!(run(&mut anew, near.clone()), run(&mut new, near));
+}
+
+#[test]
+fn motion_is_apart_where_its_conditions_are_half_as_independent_as_they_were() {
+    let closed = ladder(1, 0.4);
+    let mut motion = closed.motion(|_t, _q, _v, tau| tau.fill(0.0));
+    let at = |angle: f64| [0.4 + angle, -angle, 0.4 + angle, -2.0, 2.0, -2.0];
+    let mut rate = [0.0; 6];
+    motion.rate(0.0, &at(1.5), &mut rate).unwrap();
+    for (t, angle, apart) in [(0.1, 1.4, true), (0.2, 0.4, false), (0.3, 1.4, true)] {
+        motion.project(t, &mut at(angle)).unwrap();
+        motion.rate(t, &at(angle), &mut rate).unwrap();
+        assert_eq!(motion.is_apart(), apart, "{angle}");
+    }
+}
+
 #[test]
 fn steps_beside_and_through_a_singular_position_allocate_nothing() {
     let closed = ladder(1, 0.4);

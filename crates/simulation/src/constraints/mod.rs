@@ -10,7 +10,7 @@ mod kinds;
 mod rolling;
 
 pub use kinds::{Constraint, ConstraintKind};
-pub(crate) use rolling::RollingMechanism;
+pub(crate) use rolling::{RollingFrame, RollingMechanism};
 
 use piola_lagrangian::constraints::{Constrained, Constraints};
 use piola_numerics::Real;
@@ -106,7 +106,10 @@ impl Mechanism {
         Ok(self)
     }
 
-    /// The equations of the mechanism with gravity, its forces and its constraints.
+    /// The equations of the mechanism with gravity, its forces and its constraints on coordinates.
+    ///
+    /// Rolling is no constraint on coordinates and is left out: where a body [rolls](Self::rolls), these are the equations of the
+    /// mechanism without its contacts. [`simulate`](crate::motion::simulate) keeps them.
     ///
     /// # Example
     /// See [`with_constraints`](Self::with_constraints).
@@ -115,8 +118,10 @@ impl Mechanism {
         self.lagrangian().with_constraints(MechanismConstraints(self))
     }
 
-    /// The force of each condition φ with its unit: the tension of a rod, the force on the first point of a loop, the force or
-    /// torque of a drive.
+    /// The force of each condition with its unit: the tension of a rod, the force on the first point of a loop, the force or
+    /// torque of a drive, the force of the plane on a body that rolls.
+    ///
+    /// Where conditions depend on each other their forces are not determined. Those with the least sum of squares are recorded.
     ///
     /// # Example
     /// See [`with_constraints`](Self::with_constraints).

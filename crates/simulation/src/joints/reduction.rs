@@ -32,7 +32,7 @@ pub struct Reduction {
     pub still: Vec<usize>,
     /// Fixed joints that a moving joint carries.
     pub merged_joints: usize,
-    /// How many parts fewer there are to be placed, besides those that stand still.
+    /// Moving parts of the mechanism less those of the reduced tree.
     pub merged_parts: usize,
 }
 

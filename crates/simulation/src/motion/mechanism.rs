@@ -1,8 +1,9 @@
 //! The equations of a mechanism with the works of its forces, and the reading of its states.
 
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, DVector, Vector3};
 use piola_integrators::{Field, State};
 use piola_kinematics::{Attitude, Holonomic, Placement, RigidBody};
+use piola_lagrangian::anholonomic::Coframe as _;
 use piola_lagrangian::constraints;
 use piola_lagrangian::{LagrangianError, Reaction, Workspace};
 
@@ -12,7 +13,7 @@ pub(super) use super::energies::names as energy_names;
 use super::memory::{Memory, Remembering};
 use super::{History, Invariants, Method, PartReaction};
 use crate::SimulationError;
-use crate::constraints::{ConstrainedMechanism, MechanismConstraints, RollingMechanism};
+use crate::constraints::{ConstrainedMechanism, MechanismConstraints, RollingFrame, RollingMechanism};
 use crate::forces::{MechanismLagrangian, working};
 use crate::joints::{ClosedTop, Mechanism};
 
@@ -286,7 +287,33 @@ impl MechanismReading<'_> {
         for (held, force) in frame.held.iter().zip(&rolling.reactions(q, &free, time)?) {
             forces[*held] = *force;
         }
+        if frame.held.len() < forces.len() {
+            share(frame, q, time, forces);
+        }
         Ok(())
+    }
+}
+
+/// Forces of the independent conditions become those of all conditions with the least sum of squares, with the same generalised forces.
+fn share(mut frame: RollingFrame<'_>, q: &[f64], time: f64, forces: &mut [f64]) {
+    /// Singular values below this part of the largest are zero.
+    const SMALL: f64 = 1e-9;
+    let (n, count) = (q.len(), forces.len());
+    let mut rows = vec![0.0; count * n];
+    (frame.free, frame.held) = (Vec::new(), (0..count).collect());
+    frame.coframe(q, time, &mut rows);
+    if !rows.iter().chain(&*forces).all(|x| x.is_finite()) {
+        forces.fill(f64::NAN);
+        return;
+    }
+    // A row of ours is a column here.
+    let columns = DMatrix::from_column_slice(n, count, &rows);
+    let generalised = &columns * DVector::from_column_slice(forces);
+    let parts = columns.svd(true, true);
+    let least = SMALL * parts.singular_values.max();
+    match parts.solve(&generalised, least) {
+        Ok(found) => forces.copy_from_slice(found.as_slice()),
+        Err(_) => forces.fill(f64::NAN),
     }
 }
 

@@ -53,6 +53,9 @@ pub enum Method {
     /// A closed form at every instant, without steps: Kepler's for bodies on ellipses about a fixed centre, Lagrange's for a
     /// mechanism that [has it](crate::joints::Mechanism::has_closed_form).
     ///
+    /// Where the axis of a top passes exactly through the vertical, its first and third angles each jump by π; their rates are NaN
+    /// at an instant of the passage itself.
+    ///
     /// # Example
     /// A top that nutates: its energy is kept without a step.
     /// ```

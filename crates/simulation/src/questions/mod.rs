@@ -47,6 +47,8 @@ pub struct MechanismAnswers {
 impl Mechanism {
     /// The equilibrium that is found from the coordinates at the start, at a time, and the modes about it.
     ///
+    /// They are those of the mechanism without its [constraints](Self::constraints).
+    ///
     /// Undamped modes are normal modes; with damping or other forces of rates they are complex.
     ///
     /// # Errors

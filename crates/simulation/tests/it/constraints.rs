@@ -3,6 +3,7 @@
 use core::ops::ControlFlow;
 
 use piola_integrators::Order;
+use piola_kinematics::{Inertia, RigidBody};
 use piola_simulation::constraints::{Constraint, ConstraintKind};
 use piola_simulation::expression::{Expression, ExpressionNode as Node, Function, Operation, Variable};
 use piola_simulation::joints::{Coordinate, Joint, JointMotion, Mechanism, Part, PartKind};
@@ -191,4 +192,35 @@ fn a_parallelogram_lists_where_its_cranks_lie_on_its_rod() {
     assert_eq!(name, "c0");
     let tolerance = Tol::stated(0.1, "relative, of linear interpolation over a step of half a second");
     assert_close("time", &[*t], &[core::f64::consts::PI - 0.5], tolerance);
+}
+
+#[test]
+fn wheels_on_one_axle_share_the_forces_that_rolling_does_not_determine() {
+    // Two wheels of 2 kg, 0.5 m and C = 0.25 kg m² on a frame of 3 kg that does not turn: 9 ẍ = 7 m/s², each wheel holds −C ẍ/R².
+    let rail = |parent, axis| joint(parent, [0.0; 3], JointMotion::Prismatic(axis), [0.0; 2]);
+    let wheel = |y: f64| joint(Some(2), [0.0, y, 0.0], JointMotion::Revolute([0.0, 1.0, 0.0]), [0.0; 2]);
+    let joints = vec![
+        rail(None, [1.0, 0.0, 0.0]),
+        rail(Some(0), [0.0, 1.0, 0.0]),
+        rail(Some(1), [0.0, 0.0, 1.0]),
+        wheel(0.75),
+        wheel(-0.75),
+    ];
+    let disc = |joint| {
+        let body = Inertia::principal([0.125, 0.25, 0.125]).and_then(|inertia| RigidBody::new(2.0, inertia));
+        let kind = PartKind::Body(body.unwrap_or_else(|error| panic!("{error}")));
+        Part { joint, name: format!("wheel {joint}"), at: [0.0; 3], kind }
+    };
+    let car = mechanism(joints, vec![particle(2, 3.0, [0.0; 3]), disc(3), disc(4)]);
+    let car = Mechanism { gravity: [1.0, 2.0, -10.0], ..car };
+    let contact = |joint| {
+        let centre = car.tree.anchor(Some(joint), [0.0; 3]).unwrap_or_else(|error| panic!("{error}"));
+        ConstraintKind::Rolling { centre, radius: 0.5, axis: Some([0.0, 1.0, 0.0]), normal: [0.0, 0.0, 1.0] }
+    };
+    let held = under(car.clone(), vec![contact(3), contact(4)]);
+    for forces in &run(&held, 1.0).history.conditions {
+        // Across and upwards both wheels hold together: half each.
+        let each = [-7.0 / 9.0, -7.0, 35.0];
+        assert_close("forces", forces, &[each, each].concat(), Tol::stated(1e-12, "of sums of size seventy"));
+    }
 }

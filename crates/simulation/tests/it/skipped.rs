@@ -3,12 +3,13 @@
 
 use core::ops::ControlFlow;
 
-use piola_kinematics::{Inertia, RigidBody};
+use piola_kinematics::{Attitude, Inertia, RigidBody};
 use piola_lagrangian::Lagrangian;
 use piola_simulation::Outcome;
+use piola_simulation::constraints::{Constraint, ConstraintKind};
 use piola_simulation::forces::{Force, ForceKind};
 use piola_simulation::joints::{Coordinate, Joint, JointMotion, Mechanism, Part, PartKind};
-use piola_simulation::motion::{History, Method, MotionRun, System, TimeSpan, Timetable, simulate};
+use piola_simulation::motion::{History, Method, MotionRun, PartReaction, System, TimeSpan, Timetable, simulate};
 use piola_testkit::{Tol, assert_close};
 
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
@@ -151,14 +152,10 @@ fn islands_are_integrated_as_if_alone_and_recorded_together() {
     let tolerance =
         Tol::stated(1e-9, "errors of the tolerance 1e-14, which thirty swings of the fast pendulum magnify");
     assert_same_motion(&split.history, &whole.history, tolerance);
-    for (found, expected) in
-        [(&split.history.works, &whole.history.works), (&split.history.energies, &whole.history.energies)]
-    {
-        assert_eq!((found.len(), found[20].len()), (expected.len(), expected[20].len()));
-        assert_close("works and energies", found.as_flattened_rows(), expected.as_flattened_rows(), tolerance);
-    }
+    assert_same_rows("works", [&split.history.works, &whole.history.works], tolerance);
+    assert_same_rows("energies", [&split.history.energies, &whole.history.energies], tolerance);
+    assert_same_rows("reactions", [&reactions(&split.history), &reactions(&whole.history)], tolerance);
     assert_eq!(split.history.energy_names, whole.history.energy_names);
-    assert_eq!(split.history.reactions.len(), 21);
     // Each island by itself takes these steps and evaluations: none is made for the other.
     let alone = islands.iter().map(|island| run(&island.mechanism, FINE, 3.0));
     let sums = alone.fold([0; 2], |sum, run| [sum[0] + run.steps, sum[1] + run.force_evaluations]);
@@ -167,15 +164,68 @@ fn islands_are_integrated_as_if_alone_and_recorded_together() {
     assert_close("drift", &[drift], &[0.0], Tol::stated(1e-12, "the tolerance 1e-14 times some hundred steps"));
 }
 
-trait Rows {
-    fn as_flattened_rows(&self) -> &[f64];
+/// Each of the 21 rows.
+fn assert_same_rows(name: &str, [found, expected]: [&[Vec<f64>]; 2], tolerance: Tol) {
+    assert_eq!((found.len(), expected.len()), (21, 21), "{name}");
+    for (row, (found, expected)) in found.iter().zip(expected).enumerate() {
+        assert!(!expected.is_empty(), "{name}");
+        assert_close(&format!("{name}, row {row}"), found, expected, tolerance);
+    }
 }
 
-impl Rows for Vec<Vec<f64>> {
-    /// The last row: it has all that came before in it.
-    fn as_flattened_rows(&self) -> &[f64] {
-        self.last().map_or(&[], |row| &row[..])
+/// Forces and moments of all parts, one row an instant.
+fn reactions(history: &History) -> Vec<Vec<f64>> {
+    let of_one = |held: &Vec<PartReaction>| held.iter().flat_map(|part| [part.force, part.moment].concat()).collect();
+    history.reactions.iter().map(of_one).collect()
+}
+
+#[test]
+fn islands_with_constraints_keep_the_order_of_conditions_and_of_singular_positions() {
+    // Two parallelograms of cranks of 1 m that turn evenly at 1 and 1.5 rad/s: each is aligned at an angle of π.
+    let crank = |at: f64, name: &str, rate: f64| {
+        let turn = Coordinate { name: name.into(), angular: true, position: 0.5, velocity: rate };
+        Joint {
+            parent: None,
+            offset: [at, 0.0, 0.0],
+            motion: JointMotion::Revolute([0.0, 1.0, 0.0]),
+            coordinates: vec![turn],
+        }
+    };
+    // The joints of both stand among each other.
+    let joints = vec![crank(0.0, "a", 1.0), crank(10.0, "c", 1.5), crank(2.0, "b", 1.0), crank(12.0, "d", 1.5)];
+    let pins = (0..4).map(|joint| particle(joint, ["p", "r", "q", "s"][joint], [1.0, 0.0, 0.0])).collect();
+    let system = Mechanism { gravity: [0.0; 3], ..mechanism(joints, pins) };
+    let rod = |name: &str, ends: [usize; 2]| {
+        let anchor = |joint| system.tree.anchor(Some(joint), [1.0, 0.0, 0.0]);
+        let ends = ends.map(|joint| anchor(joint).unwrap_or_else(|error| panic!("{error}")));
+        Constraint { name: name.into(), kind: ConstraintKind::Distance { ends, length: 2.0 } }
+    };
+    let rods = vec![rod("fast", [1, 3]), rod("slow", [0, 2])];
+    let mut system = system.clone().with_constraints(rods).unwrap_or_else(|error| panic!("{error}"));
+    system.reactions = true;
+    assert_eq!(system.islands().len(), 2);
+    let split = run(&system, Method::DormandPrince { tolerance: 1e-10 }, 3.0);
+    assert_eq!(split.history.condition_names, ["tension of fast (N)", "tension of slow (N)"]);
+    assert_eq!((split.history.conditions.len(), split.history.reactions.len()), (21, 21));
+    let tolerance = Tol::stated(1e-6, "runs with a tolerance of 1e-10 through a singular position");
+    for (k, t) in split.history.times.iter().enumerate() {
+        let expected = [1.0, 1.5, 1.0, 1.5].map(|rate| 0.5 + rate * (t - 0.5));
+        assert_close("angles", &split.history.coordinates[k][..4], &expected, tolerance);
+        // No force acts along the rods; each crank carries its particle around.
+        for (part, rate) in [1.0, 1.5, 1.0, 1.5].into_iter().enumerate() {
+            let (sine, cosine) = expected[part].sin_cos();
+            let force = 1.5 * rate * rate;
+            let held = split.history.reactions[k][part].force;
+            assert_close("reaction", &held, &[-force * cosine, 0.0, force * sine], tolerance);
+        }
     }
+    let [first, second] = &split.history.singular_positions[..] else {
+        panic!("{:?}", split.history.singular_positions)
+    };
+    assert_eq!([&first.1[..], &second.1], ["fast", "slow"]);
+    let expected = [1.5, 1.0].map(|rate| 0.5 + (core::f64::consts::PI - 0.5) / rate);
+    let tolerance = Tol::stated(0.1, "relative, of linear interpolation over a step of half a second");
+    assert_close("singular positions", &[first.0, second.0], &expected, tolerance);
 }
 
 #[test]
@@ -210,10 +260,12 @@ fn top(angles: [f64; 3], rates: [f64; 3], height: f64) -> Mechanism {
     let base = fixed(None, [0.5, -0.25, 1.0]);
     let tip =
         Joint { parent: Some(0), offset: [0.0; 3], motion: JointMotion::Spherical, coordinates: coordinates.into() };
-    let disc = body(1, "disc", [0.0, 0.0, height], [0.3, 0.3, 0.5]);
     let rim = fixed(Some(1), [0.0, 0.0, 0.5 * height]);
-    let parts = vec![disc, body(2, "axle", [0.0; 3], [0.2, 0.2, 0.01])];
-    mechanism(vec![base, tip, rim], parts)
+    mechanism(vec![base, tip, rim], parts_of_a_top(height).into())
+}
+
+fn parts_of_a_top(height: f64) -> [Part; 2] {
+    [body(1, "disc", [0.0, 0.0, height], [0.3, 0.3, 0.5]), body(2, "axle", [0.0; 3], [0.2, 0.2, 0.01])]
 }
 
 #[test]
@@ -239,6 +291,39 @@ fn a_top_in_closed_form_evaluates_no_force_and_agrees_with_an_integration() {
     }
 }
 
+/// A top that moves in the vertical plane of its first angle, through the vertical below and above, is the pendulum of its moment.
+#[test]
+fn a_top_in_closed_form_that_swings_through_the_vertical_is_a_pendulum() {
+    for (theta, rate, height) in [(2.0, 0.0, 0.5), (1.0, 12.0, 0.5), (0.5, -0.5, -0.4), (0.5, -15.0, -0.4)] {
+        let closed = run(&top([0.3, theta, -0.2], [0.0, rate, 0.0], height), Method::ClosedForm, 4.0);
+        let (sine, cosine) = 0.3_f64.sin_cos();
+        let turn = Coordinate { name: "theta".into(), angular: true, position: theta, velocity: rate };
+        let hinge = Joint {
+            parent: Some(0),
+            offset: [0.0; 3],
+            motion: JointMotion::Revolute([-sine, cosine, 0.0]),
+            coordinates: vec![turn],
+        };
+        let joints = vec![fixed(None, [0.5, -0.25, 1.0]), hinge, fixed(Some(1), [0.0, 0.0, 0.5 * height])];
+        let pendulum = run(&mechanism(joints, parts_of_a_top(height).into()), FINE, 4.0);
+        let tolerance = Tol::stated(1e-10, "of the integration");
+        let matrix = |angles: [f64; 3]| Attitude::<f64>::from_euler_zyz(angles).to_matrix();
+        let mut lowest_and_highest = [f64::INFINITY, f64::NEG_INFINITY];
+        for (found, expected) in closed.history.coordinates.iter().zip(&pendulum.history.coordinates) {
+            let (found, expected) = (matrix([found[0], found[1], found[2]]), matrix([0.3, expected[0], -0.2]));
+            assert_close("attitude", found.as_slice(), expected.as_slice(), tolerance);
+        }
+        for state in &pendulum.history.coordinates {
+            lowest_and_highest = [lowest_and_highest[0].min(state[0]), lowest_and_highest[1].max(state[0])];
+        }
+        let whole = |angle: f64| (angle / core::f64::consts::PI).floor();
+        assert!(whole(lowest_and_highest[0]) < whole(lowest_and_highest[1]), "{lowest_and_highest:?}");
+        for (found, expected) in closed.history.positions.iter().zip(&pendulum.history.positions) {
+            assert_close("places", found.as_flattened(), expected.as_flattened(), tolerance);
+        }
+    }
+}
+
 #[test]
 fn what_is_no_symmetric_top_has_no_closed_form() {
     let start = ([0.3, 0.5, -0.2], [0.0, 0.0, 60.0]);
@@ -249,10 +334,27 @@ fn what_is_no_symmetric_top_has_no_closed_form() {
     };
     let pushed = system.clone().with_forces(vec![pushed]).unwrap_or_else(|error| panic!("{error}"));
     let tilted = Mechanism { gravity: [1.0, 0.0, -9.81], ..system.clone() };
-    let beyond = top([0.3, -0.5, -0.2], start.1, 0.5);
-    let mut lopsided = system.clone();
-    lopsided.position[1] = 4.0;
-    for other in [pushed, tilted, beyond, lopsided] {
+    let beyond = [-0.5, 4.0].map(|theta| top([0.3, theta, -0.2], start.1, 0.5));
+    // Other parts: of unequal moments, beside the axis, and on a joint of its own.
+    let [disc, axle] = parts_of_a_top(0.5);
+    let spin =
+        |i: usize| Coordinate { name: format!("angle {i}"), angular: true, position: start.0[i], velocity: start.1[i] };
+    let carried = |joints: &[Joint], parts: Vec<Part>| {
+        let coordinates = [0, 1, 2].map(spin).into();
+        let tip = Joint { parent: None, offset: [0.0; 3], motion: JointMotion::Spherical, coordinates };
+        let base = fixed(None, [0.5, -0.25, 1.0]);
+        let tip = Joint { parent: Some(0), ..tip };
+        mechanism([&[base, tip, fixed(Some(1), [0.0, 0.0, 0.25])], joints].concat(), parts)
+    };
+    assert!(carried(&[], vec![disc.clone(), axle.clone()]).has_closed_form());
+    let unequal = carried(&[], vec![body(1, "disc", [0.0, 0.0, 0.5], [0.3, 0.35, 0.5]), axle.clone()]);
+    let lopsided = carried(&[], vec![body(1, "disc", [0.01, 0.0, 0.5], [0.3, 0.3, 0.5]), axle.clone()]);
+    let child = turning(Some(1), [0.0, 0.0, 0.5], "child", 0.0);
+    let with_child = carried(&[child], vec![disc.clone(), axle.clone(), particle(3, "bob", [0.0, 0.0, 0.1])]);
+    let other = turning(None, [3.0, 0.0, 0.0], "other", 0.1);
+    let with_other = carried(&[other], vec![disc, axle, particle(3, "bob", [0.0, 0.0, -1.0])]);
+    let shapes = [unequal, lopsided, with_child, with_other];
+    for other in [pushed, tilted].into_iter().chain(beyond).chain(shapes) {
         assert!(!other.has_closed_form());
         let timetable = Timetable::new(TimeSpan { start: 0.0, end: 1.0 }, 3, &[]);
         let run = simulate(&System::Mechanism(Box::new(other)), Method::ClosedForm, &timetable, &mut |_| {
