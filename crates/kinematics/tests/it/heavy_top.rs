@@ -244,7 +244,7 @@ fn turns_of_a_pendulum_count_its_passages_of_the_vertical() {
     // In the vertical itself at the start.
     let motion = HeavyTop::new(&inertia, weight, Attitude::about_x(PI), Vector3::new(1.0, 0.0, 0.0)).unwrap();
     let [down, up] = motion.turns(0.0);
-    assert_eq!([down, up], [0.0, 0.0]);
+    assert!(down.abs() + up.abs() <= 0.0, "{down} {up}");
     let down = motion.turns(0.25 * motion.period_of_nutation())[0].abs();
     assert!(down.min((down - PI).abs()) < 1e-14, "{down}");
 }
