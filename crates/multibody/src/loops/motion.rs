@@ -10,8 +10,8 @@ use crate::error::MultibodyError;
 /// The least share of its own of a condition below which a state lies beside a singular position.
 const BESIDE: f64 = 0.05;
 
-/// The part of the largest of the least shares so far from which a run may be begun anew: it then soon knows the usual share again.
-const APART: f64 = 0.5;
+/// The part of the largest of the least shares so far from which a run may be begun anew: `BESIDE` is then still reached in time.
+const APART: f64 = 0.2;
 
 /// The least share below which a step must not end: there rounding, ε/x² at the distance x, exceeds the error of the method.
 const CLOSE_BY: f64 = 1e-6;
@@ -131,7 +131,8 @@ impl<F> ClosedMotion<'_, F> {
     /// Whether no singular position is near: then a motion that is [begun anew](Self::restart) at the last accepted state goes on as
     /// this one does, within its tolerance.
     ///
-    /// No singular position is near where the conditions are at least half as independent as they have been since the start.
+    /// That is so where the least share of a condition that does not depend on the others is at least a fifth of the largest such share
+    /// since the start. A mechanism that comes to rest where it is less is not apart again.
     pub const fn is_apart(&self) -> bool {
         let [now, next] = self.beside;
         !now && !next && self.close_by == 0 && !self.passages.is_between() && self.is_usual()
