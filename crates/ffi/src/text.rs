@@ -195,7 +195,11 @@ impl Entry {
             let is_stress = match &parameter["is_stress"] {
                 Value::Bool(is_stress) => *is_stress,
                 _ if summary["stress_unit"].is_null() => true,
-                _ => return Err(missing("there is a `stress_unit`, but a parameter does not say whether it `is_stress`")),
+                _ => {
+                    return Err(missing(
+                        "there is a `stress_unit`, but a parameter does not say whether it `is_stress`",
+                    ));
+                }
             };
             // A viscosity has the unit of the stresses times a second.
             let scale = if is_stress || name == "viscosity" { unit } else { 1.0 };

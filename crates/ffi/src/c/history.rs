@@ -8,7 +8,9 @@ use piola::inelastic::AnyInelastic;
 
 use super::PiolaStatus;
 use super::abaqus::padded;
-use super::memory::{check_apart, choice, hand_over, handle, optional_text, points, points_mut, put, slice, slice_mut, text, texts};
+use super::memory::{
+    check_apart, choice, hand_over, handle, optional_text, points, points_mut, put, slice, slice_mut, text, texts,
+};
 use super::status::answer;
 use crate::history::abaqus::{PointIncrement, Stretching, umat, vumat};
 use crate::history::text::{history_from_fit, history_from_json};
@@ -199,7 +201,11 @@ pub unsafe extern "C" fn piola_history_advance(
 ) -> PiolaStatus {
     answer(|| {
         check_apart(
-            &[("after", after, states_length), ("stresses", stresses, stresses_length), ("tangents", tangents, tangents_length)],
+            &[
+                ("after", after, states_length),
+                ("stresses", stresses, stresses_length),
+                ("tangents", tangents, tangents_length),
+            ],
             &[("from", from, f_length), ("to", to, f_length), ("before", before, states_length)],
         )?;
         // SAFETY: as the caller promises.
@@ -254,7 +260,11 @@ pub unsafe extern "C" fn piola_history_umat(
     answer(|| {
         let count = direct.saturating_add(shear);
         check_apart(
-            &[("state", state, state_length), ("stress", stress, count), ("tangent", tangent, count.saturating_mul(count))],
+            &[
+                ("state", state, state_length),
+                ("stress", stress, count),
+                ("tangent", tangent, count.saturating_mul(count)),
+            ],
             &[("properties", properties, properties_length), ("from", from, 9), ("to", to, 9)],
         )?;
         // SAFETY: as the caller promises.

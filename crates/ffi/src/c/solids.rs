@@ -5,7 +5,9 @@ use std::ffi::c_char;
 use piola::solids::AnySolid;
 
 use super::PiolaStatus;
-use super::memory::{check_apart, choice, hand_over, handle, optional_text, points, points_mut, slice, slice_mut, text, texts};
+use super::memory::{
+    check_apart, choice, hand_over, handle, optional_text, points, points_mut, slice, slice_mut, text, texts,
+};
 use super::status::answer;
 use crate::points::{StressMeasure, TangentMeasure, VoigtNumbering};
 use crate::{FfiError, named, points, text};

@@ -131,7 +131,8 @@ fn laws_read_from_a_fit_have_the_stresses_of_the_fitted_model() {
         };
         let expected = model.stresses(values, &path, &one_step).unwrap();
         // The fit holds all parameters but the first and begins at the answer.
-        let measured: Vec<[f64; 3]> = rows.iter().zip(&expected).map(|(row, stress)| [row[0], row[1], *stress]).collect();
+        let measured: Vec<[f64; 3]> =
+            rows.iter().zip(&expected).map(|(row, stress)| [row[0], row[1], *stress]).collect();
         let test = HistoryTest::new("shear", Loading::SimpleShear, &measured).unwrap();
         let mut options = HistoryOptions::default().with_control(one_step);
         for ((name, _, _), value) in model.parameters().iter().zip(values).skip(1) {

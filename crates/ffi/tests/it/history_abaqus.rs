@@ -314,8 +314,7 @@ fn thermal_strains_follow_the_temperatures_of_abaqus() {
         assert_eq!(element.state, [temperature]);
         let (stretching, mut new, mut stresses) = ([1.0, 1.0, 1.0, 0.0], [7.0], [0.0; 4]);
         let law = history(name, &properties).unwrap();
-        let given =
-            Stretching { before: &[], after: &stretching, added: 0.0, dt: 0.5, temperatures: &[temperature] };
+        let given = Stretching { before: &[], after: &stretching, added: 0.0, dt: 0.5, temperatures: &[temperature] };
         vumat(&law, [3, 1], given, (&[0.0], &mut new), &mut stresses).unwrap();
         assert!((stresses[0] - expected).abs() < 1e-14 && new == [temperature]);
         vumat(&law, [3, 1], Stretching { temperatures: &[], ..given }, (&[0.0], &mut new), &mut stresses).unwrap();
@@ -453,7 +452,8 @@ fn umat_and_vumat_of_fortran_return_the_bits_of_the_library() {
             ["start", ref rest @ ..] => {
                 let (found, strains) = (numbers(rest), [1e-3; 42]);
                 let (mut stresses, mut states) = (vec![0.0; 42], vec![0.0; 63]);
-                let stretching = Stretching { before: &stretches, after: &strains, added: 1.0, dt: 0.0, temperatures: &[] };
+                let stretching =
+                    Stretching { before: &stretches, after: &strains, added: 1.0, dt: 0.0, temperatures: &[] };
                 vumat(&viscous, [3, 3], stretching, (&old, &mut states), &mut stresses).unwrap();
                 assert_eq!(found, [&stresses[..], &states].concat());
                 blocks += 1;
