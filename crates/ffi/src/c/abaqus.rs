@@ -44,7 +44,8 @@ pub unsafe extern "C" fn piola_umat(
 ) -> PiolaStatus {
     answer(|| {
         let count = direct.saturating_add(shear);
-        let outputs = [("stress", stress.cast_const(), count), ("tangent", tangent, count.saturating_mul(count))];
+        let outputs =
+            [("stress", stress.cast_const(), count), ("tangent", tangent.cast_const(), count.saturating_mul(count))];
         check_apart(&outputs, &[("properties", properties, properties_length), ("f", f, 9)])?;
         // SAFETY: as the caller promises.
         let (name, properties) =

@@ -63,7 +63,8 @@ pub(super) fn check_apart(outputs: &[Array], inputs: &[Array]) -> Result<(), Ffi
         let start = pointer.addr();
         (start, start.saturating_add(length.saturating_mul(size_of::<f64>())))
     };
-    let is_some = |&(_, pointer, length): &Array| 0 < length && !pointer.is_null();
+    // What can be no array is refused where it is made a slice.
+    let is_some = |&(argument, pointer, length): &Array| 0 < length && check(argument, pointer, length).is_ok();
     for (number, output) in outputs.iter().enumerate() {
         let (start, end) = ends(output);
         for other in outputs[number + 1..].iter().chain(inputs) {

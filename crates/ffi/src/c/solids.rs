@@ -253,7 +253,10 @@ pub unsafe extern "C" fn piola_stress_and_tangent(
     tangents_length: usize,
 ) -> PiolaStatus {
     answer(|| {
-        let outputs = [("stresses", stresses.cast_const(), stresses_length), ("tangents", tangents, tangents_length)];
+        let outputs = [
+            ("stresses", stresses.cast_const(), stresses_length),
+            ("tangents", tangents.cast_const(), tangents_length),
+        ];
         check_apart(&outputs, &[("f", f, f_length)])?;
         // SAFETY: as the caller promises.
         let (solid, f) = unsafe { (handle("solid", solid)?, slice("f", f, f_length)?) };
