@@ -4,7 +4,7 @@ use piola_continuum::deformation::transport;
 use piola_continuum::stress::tangents::MaterialTangent;
 use piola_continuum::{Deformation, SecondPiola};
 use piola_numerics::linear::matrix3::from_rows;
-use piola_tensor::MinorSymmetric;
+use piola_tensor::{Minor, MinorSymmetric};
 use piola_testkit::strategies::{self, random_cases};
 use piola_testkit::{Tol, assert_close_at_scale};
 use proptest::prelude::*;
@@ -39,7 +39,7 @@ proptest! {
         d in deformation(), s in symmetric(), c in strategies::vector(36, -1.0..1.0)
     ) {
         let components = core::array::from_fn(|row| core::array::from_fn(|column| c[6 * row + column]));
-        let material = MaterialTangent(MinorSymmetric { components });
+        let material = MaterialTangent::<f64, Minor>(MinorSymmetric { components });
         let stress = SecondPiola(s);
         let cauchy = stress.kirchhoff(&d).cauchy(&d);
         let found = material.first_piola(&stress, &d).spatial(&cauchy, &d);
