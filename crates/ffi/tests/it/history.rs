@@ -114,7 +114,7 @@ fn laws_of_a_fit_are_those_of_their_models() {
     assert_eq!(unknown.status(), PiolaStatus::UnknownChoice);
 }
 
-/// A law read from a fit has the stresses of the model that was fitted, in Pa where the table was in MPa.
+/// A law read from a fit has the stresses of the model that was fitted, in pascal where the table was in megapascal.
 #[test]
 fn laws_read_from_a_fit_have_the_stresses_of_the_fitted_model() {
     use piola::fit::history::{AnyHistoryModel, HistoryModel, HistoryOptions, HistoryTest, fit_history};
