@@ -15,11 +15,18 @@ C     A state of zeros is that of the body as it was made.
 C     STRESS is the Cauchy stress and DDSDDE the consistent tangent of
 C     Jaumann's rate of the Kirchhoff stress over J: 11, 22, 33, 12,
 C     13, 23. It is not symmetric in general.
+C     The law THERMAL takes TEMP + DTEMP as its temperature at the end of
+C     the increment and keeps it in STATEV(1). Give initial temperatures
+C     (*INITIAL CONDITIONS, TYPE=TEMPERATURE): without them Abaqus begins
+C     at 0, and a reference temperature other than 0 makes a strain.
+C     Other laws do not depend on the temperature.
+C     The growth of GIVEN_GROWTH is STATEV: write it in SDVINI, or here
+C     before the call.
 C     Solid elements, plane strain and axisymmetric elements (NDI = 3).
 C
-C     An increment whose update fails asks for a smaller one, and STATEV
-C     stays as it was. What else is wrong is printed, and the analysis
-C     ends.
+C     An increment whose update fails asks for a smaller one, its reason
+C     is printed, and STATEV stays as it was. What else is wrong is
+C     printed, too, and the analysis ends.
 C
       SUBROUTINE UMAT(STRESS,STATEV,DDSDDE,SSE,SPD,SCD,
      1 RPL,DDSDDT,DRPLDE,DRPLDT,
@@ -36,15 +43,16 @@ C
      4 JSTEP(4)
       INTERFACE
         INTEGER(C_INT) FUNCTION PIOLA_HISTORY_UMAT(NAME,NAMELEN,
-     1   PROPS,NPROPS,NDI,NSHR,F0,F1,DT,STATE,NSTATE,STRESS,TANGENT)
-     2   BIND(C,NAME='piola_history_umat')
+     1   PROPS,NPROPS,NDI,NSHR,F0,F1,DT,HEAT,STATE,NSTATE,
+     2   STRESS,TANGENT)
+     3   BIND(C,NAME='piola_history_umat')
           USE, INTRINSIC :: ISO_C_BINDING
           IMPLICIT NONE
           CHARACTER(KIND=C_CHAR), INTENT(IN) :: NAME(*)
           INTEGER(C_SIZE_T), VALUE :: NAMELEN, NPROPS, NDI, NSHR
           INTEGER(C_SIZE_T), VALUE :: NSTATE
           REAL(C_DOUBLE), INTENT(IN) :: PROPS(*), F0(*), F1(*)
-          REAL(C_DOUBLE), VALUE :: DT
+          REAL(C_DOUBLE), VALUE :: DT, HEAT
           REAL(C_DOUBLE), INTENT(INOUT) :: STATE(*)
           REAL(C_DOUBLE), INTENT(INOUT) :: STRESS(*), TANGENT(*)
         END FUNCTION
@@ -62,14 +70,14 @@ C
       ISTATUS = PIOLA_HISTORY_UMAT(CMNAME, INT(LEN(CMNAME),C_SIZE_T),
      1 PROPS, INT(NPROPS,C_SIZE_T), INT(NDI,C_SIZE_T),
      2 INT(NSHR,C_SIZE_T), DFGRD0, DFGRD1, DTIME,
-     3 STATEV, INT(NSTATV,C_SIZE_T), STRESS, DDSDDE)
+     3 TEMP+DTEMP, STATEV, INT(NSTATV,C_SIZE_T), STRESS, DDSDDE)
       IF (ISTATUS .EQ. 0) RETURN
+      LENGTH = PIOLA_MESSAGE(MESSAGE, INT(LEN(MESSAGE),C_SIZE_T))
+      WRITE(*,*) 'UMAT, element ', NOEL, ', point ', NPT, ': ',
+     1 TRIM(MESSAGE)
       IF (ISTATUS .EQ. 6) THEN
         PNEWDT = 0.25D0
         RETURN
       END IF
-      LENGTH = PIOLA_MESSAGE(MESSAGE, INT(LEN(MESSAGE),C_SIZE_T))
-      WRITE(*,*) 'UMAT, element ', NOEL, ', point ', NPT, ': ',
-     1 TRIM(MESSAGE)
       CALL XIT
       END

@@ -4,6 +4,8 @@ C     `history`.
 C
 C     The name of the material, its constants and the number of its
 C     state variables are those of UMAT.
+C     The law THERMAL takes tempNew as its temperature. The first call
+C     takes the reference temperature: it has no thermal stress.
 C     Stresses are corotated: R^T T R = T(U), from the stretches U,
 C     11, 22, 33, 12, 23, 13. The first call of a run, at time 0, asks
 C     for the stiffness of the body at rest by small strains in no time.
@@ -37,14 +39,15 @@ C
       interface
         integer(c_int) function piola_history_vumat(name,namelen,
      1   props,nprops,points,ndir,nshr,before,after,added,dt,
-     2   old,new,nstate,stresses) bind(c,name='piola_history_vumat')
+     2   heat,nheat,old,new,nstate,stresses)
+     3   bind(c,name='piola_history_vumat')
           use, intrinsic :: iso_c_binding
           implicit none
           character(kind=c_char), intent(in) :: name(*)
           integer(c_size_t), value :: namelen, nprops, points
-          integer(c_size_t), value :: ndir, nshr, nstate
+          integer(c_size_t), value :: ndir, nshr, nheat, nstate
           real(c_double), intent(in) :: props(*), before(*), after(*)
-          real(c_double), intent(in) :: old(*)
+          real(c_double), intent(in) :: old(*), heat(*)
           real(c_double), value :: added, dt
           real(c_double), intent(inout) :: new(*), stresses(*)
         end function
@@ -70,13 +73,15 @@ C
      1   int(len(cmname),c_size_t), props, int(nprops,c_size_t),
      2   int(nblock,c_size_t), int(ndir,c_size_t),
      3   int(nshr,c_size_t), rest, strainInc, 1.d0, 0.d0,
-     4   stateOld, stateNew, int(nstatev,c_size_t), stressNew)
+     4   tempNew, int(0,c_size_t),
+     5   stateOld, stateNew, int(nstatev,c_size_t), stressNew)
       else
         istatus = piola_history_vumat(cmname,
      1   int(len(cmname),c_size_t), props, int(nprops,c_size_t),
      2   int(nblock,c_size_t), int(ndir,c_size_t),
      3   int(nshr,c_size_t), stretchOld, stretchNew, 0.d0, dt,
-     4   stateOld, stateNew, int(nstatev,c_size_t), stressNew)
+     4   tempNew, int(nblock,c_size_t),
+     5   stateOld, stateNew, int(nstatev,c_size_t), stressNew)
       end if
       if (istatus .ne. 0) then
         length = piola_message(message, int(len(message),c_size_t))

@@ -11,7 +11,7 @@
 typedef enum {
   // Everything was computed.
   PIOLA_STATUS_OK = 0,
-  // A pointer that must lead somewhere is null, or does not lead to a number's boundary.
+  // A pointer that must lead somewhere is null or does not lead to a number's boundary, or an output overlaps another array.
   PIOLA_STATUS_BAD_POINTER = 1,
   // An array has another length than the arrays beside it ask for.
   PIOLA_STATUS_WRONG_LENGTH = 2,
@@ -118,7 +118,8 @@ PiolaStatus piola_solid_from_json(const char *json,
 // Makes the law of a fit from the text of its `summary.json`.
 //
 // `model` chooses one of its laws, such as `yeoh`; a null pointer chooses the best by `aicc`. `volumetric` is the energy of the
-// change of volume in JSON, such as `{"law": "quadratic", "bulk_modulus": 2e9}`; with a null pointer the law is incompressible.
+// change of volume in JSON, such as `{"law": "quadratic", "bulk_modulus": 2e9}`; with a null pointer the law is incompressible. Parameters
+// are converted from the `stress_unit` of the summary to Pa.
 PiolaStatus piola_solid_from_fit(const char *summary,
                                  const char *model,
                                  const char *volumetric,
@@ -280,8 +281,11 @@ PiolaStatus piola_history_from_json(const char *json,
 #if defined(PIOLA_HISTORY)
 // Makes the law of a fit of laws with history from the text of its `summary.json`.
 //
-// `model` chooses one of its laws, such as `reese-govindjee`; a null pointer chooses the best by `aicc`.
-PiolaStatus piola_history_from_fit(const char *summary, const char *model, PiolaHistory **made);
+// `model` chooses one of its laws, such as `reese-govindjee`; a null pointer chooses the best by `aicc`. Parameters are converted from the
+// `stress_unit` of the summary to Pa.
+PiolaStatus piola_history_from_fit(const char *summary,
+                                   const char *model,
+                                   PiolaHistory **made);
 #endif
 
 #if defined(PIOLA_HISTORY)
@@ -312,7 +316,8 @@ PiolaStatus piola_history_state_length(const PiolaHistory *history, size_t *leng
 #endif
 
 #if defined(PIOLA_HISTORY)
-// The number of internal variables of the law with this name, such as `kinematic-hencky-lame-hencky-lame`, as NSTATV of Abaqus.
+// The number of internal variables of the law with this name, NSTATV of Abaqus: that of a law, such as `kinematic-hencky-lame-hencky-lame`,
+// or of a file in the folder `PIOLA_MATERIALS`.
 PiolaStatus piola_history_state_length_of(const char *name,
                                           size_t *length);
 #endif
@@ -330,12 +335,12 @@ PiolaStatus piola_history_initial_states(const PiolaHistory *history,
 //
 // `stress` is a `PiolaStress`, `tangent` a `PiolaTangent`, `voigt` a `PiolaVoigt`, `layout` a `PiolaLayout`. The deformation gradients
 // `from` and `to`, 9 n numbers by rows, are those at the start and the end; the increment takes `dt` s. `tolerance` bounds the estimated
-// error of the internal variables; with 0 the increment is one implicit step. `before` and `after` have n states, which must not be the
-// same memory. `tangents` may be a null pointer with the length 0; otherwise it gets 81 or 36 numbers a point, by rows, which lack the
+// error of the internal variables; with 0 the increment is one implicit step. `before` and `after` have n states. Outputs that overlap
+// inputs or one another are refused: `after` is other memory than `before`. `tangents` may be a null pointer with the length 0; otherwise it gets 81 or 36 numbers a point, by rows, which lack the
 // major symmetry in general.
 //
-// After `PIOLA_STATUS_BAD_POINTS` stresses and tangents of the points that failed are NaN and their new states the last admissible
-// ones; the message names the first of them, and the share of the increment at which its state lies. All others are advanced.
+// After `PIOLA_STATUS_BAD_POINTS` stresses and tangents of the points that failed are NaN and their new states those before; the message
+// names the first of them, and the share of the increment up to which an update was found. All others are advanced.
 PiolaStatus piola_history_advance(const PiolaHistory *history,
                                   int32_t stress,
                                   int32_t tangent,
@@ -359,8 +364,9 @@ PiolaStatus piola_history_advance(const PiolaHistory *history,
 // STRESS, DDSDDE and STATEV of Abaqus at one point of a law with history; see `fortran/umat_history.f`.
 //
 // `name` has `name_length` characters: a law with its parameters in `properties`, or the name of a file in the folder
-// `PIOLA_MATERIALS`. `from` and `to` are DFGRD0 and DFGRD1, nine numbers by columns. `state` has `state_length` numbers, zeros for the
-// body as it was made. `stress` gets NTENS = `direct` + `shear` numbers, `tangent` NTENS^2 by columns.
+// `PIOLA_MATERIALS`. `from` and `to` are DFGRD0 and DFGRD1, nine numbers by columns. `temperature` is that at the end, TEMP + DTEMP; the
+// law `thermal` takes it in the place of its state, and no other law uses it. `state` has `state_length` numbers, zeros for the body as it
+// was made. `stress` gets NTENS = `direct` + `shear` numbers, `tangent` NTENS^2 by columns.
 PiolaStatus piola_history_umat(const char *name,
                                size_t name_length,
                                const double *properties,
@@ -370,6 +376,7 @@ PiolaStatus piola_history_umat(const char *name,
                                const double *from,
                                const double *to,
                                double dt,
+                               double temperature,
                                double *state,
                                size_t state_length,
                                double *stress,
@@ -380,9 +387,11 @@ PiolaStatus piola_history_umat(const char *name,
 // Corotated stresses and states of Abaqus/Explicit of a law with history; see `fortran/vumat_history.f`.
 //
 // `before` and `after` have n (`direct` + `shear`) numbers, each component an array: 11, 22, 33, 12, 23, 13; with a null pointer
-// the body is undeformed before. `added` is added to the diagonal of `after`: 0 for stretches, 1 for small strains. `old` and `new_states`
+// the body is undeformed before. `added` is added to the diagonal of `after`: 0 for stretches, 1 for small strains. `temperatures` has n
+// numbers, tempNew, which the law `thermal` takes in the place of its states; with none of them these stay as they are. `old` and `new_states`
 // have n `state_length` numbers, each variable an array; a state of zeros is that of the body as it was made. `stresses` gets as many
-// numbers as `after` has.
+// numbers as `after` has. Outputs that overlap
+// inputs or one another are refused.
 PiolaStatus piola_history_vumat(const char *name,
                                 size_t name_length,
                                 const double *properties,
@@ -394,6 +403,8 @@ PiolaStatus piola_history_vumat(const char *name,
                                 const double *after,
                                 double added,
                                 double dt,
+                                const double *temperatures,
+                                size_t temperatures_length,
                                 const double *old,
                                 double *new_states,
                                 size_t state_length,

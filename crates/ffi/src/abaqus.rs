@@ -106,7 +106,7 @@ pub fn vumat(
     check_length("stretchNew", points * count, stretches.len())?;
     check_length("stressNew", stretches.len(), stress_out.len())?;
     check_finite("stretchNew", stretches)?;
-    let mut first_error = None;
+    let (mut failed, mut first_error) = (0, None);
     let (mut f, mut whole) = ([[0.0; 9]; BLOCK], [[0.0; 9]; BLOCK]);
     for start in (0..points).step_by(BLOCK) {
         let here = BLOCK.min(points - start);
@@ -115,9 +115,12 @@ pub fn vumat(
             let (u11, u22, u33) = (u(0) + added, u(1) + added, u(2) + added);
             *f = [u11, u(3), u(5), u(3), u22, u(4), u(5), u(4), u33];
         }
-        let result = stress(law, StressMeasure::Cauchy, &f[..here], &mut whole[..here]);
-        if let Err(error) = result {
-            first_error.get_or_insert(shifted(error, start, points));
+        match stress(law, StressMeasure::Cauchy, &f[..here], &mut whole[..here]) {
+            Err(FfiError::BadPoints { bad, index, error, .. }) => {
+                failed += bad;
+                first_error.get_or_insert((start + index, error));
+            }
+            result => result?,
         }
         for (index, [t11, t12, t13, _, t22, t23, _, _, t33]) in whole[..here].iter().enumerate() {
             for (k, component) in [t11, t22, t33, t12, t23, t13].into_iter().take(count).enumerate() {
@@ -125,15 +128,8 @@ pub fn vumat(
             }
         }
     }
-    first_error.map_or(Ok(()), Err)
-}
-
-/// Bad points of a block, counted from the first point of all.
-fn shifted(error: FfiError, start: usize, points: usize) -> FfiError {
-    match error {
-        FfiError::BadPoints { bad, index, error, .. } => {
-            FfiError::BadPoints { bad, count: points, index: start + index, error }
-        }
-        other => other,
+    match first_error {
+        None => Ok(()),
+        Some((index, error)) => Err(FfiError::BadPoints { bad: failed, count: points, index, error }),
     }
 }

@@ -23,6 +23,14 @@ pub enum FfiError {
         /// The argument.
         argument: &'static str,
     },
+    /// An output lies in memory of another array.
+    #[error("`{output}` overlaps `{other}`; they must be different memory")]
+    Overlap {
+        /// The output.
+        output: &'static str,
+        /// The other array.
+        other: &'static str,
+    },
     /// A text has bytes that are no UTF-8.
     #[error("`{argument}` is not UTF-8: byte {index} is wrong")]
     NotText {

@@ -7,6 +7,7 @@ use std::rc::Rc;
 #[cfg(feature = "history")]
 use piola::inelastic::AnyInelastic;
 use piola::solids::AnySolid;
+use serde_json::Value;
 
 #[cfg(feature = "history")]
 use crate::history::named::is_history;
@@ -81,7 +82,8 @@ thread_local! {
 /// | any other, such as `TREAD`, without properties | that of the file `tread.json` in the folder [`FOLDER`] |
 ///
 /// A file holds a law in its written form, or the summary of a fit, whose best law is then taken as it is: incompressible, or it
-/// names a fit, one of its models and an energy of the change of volume. The path of the fit is relative to the folder.
+/// names a fit, one of its models and an energy of the change of volume. The path of the fit is relative to the folder. Parameters of a fit
+/// are converted to Pa.
 ///
 /// ```text
 /// {"law": "hencky", "shear_modulus": 1.0, "volumetric": {"law": "lame", "first_lame_parameter": 2.0}}
@@ -116,13 +118,22 @@ pub fn material_with_history(name: &str, properties: &[f64]) -> Result<Rc<AnyIne
             return named::history(name, properties);
         }
         let File { text, value } = File::of(name)?;
-        match value["fit"].as_str() {
-            Some(fit) => history_from_fit(&read(name, fit)?, value["model"].as_str()),
+        match fit_of(&value, &["fit", "model"])? {
+            Some((fit, model)) => history_from_fit(&read(name, fit)?, model),
             None if value.get("laws").is_some() => history_from_fit(&text, None),
             None => history_from_value(value),
         }
     };
     HISTORIES.with_borrow_mut(|kept| kept.get(name, properties, make))
+}
+
+/// The number of internal variables of the law with history of a material, whatever its properties are: NSTATV of Abaqus.
+///
+/// # Errors
+/// As [`material_with_history`].
+#[cfg(feature = "history")]
+pub fn material_state_length(name: &str) -> Result<usize, FfiError> {
+    if is_history(name) { named::state_length(name) } else { Ok(material_with_history(name, &[])?.state_length()) }
 }
 
 /// The text of a file in the folder of materials.
@@ -138,7 +149,7 @@ fn read(name: &str, file: &str) -> Result<String, FfiError> {
 /// The file of a material.
 struct File {
     text: String,
-    value: serde_json::Value,
+    value: Value,
 }
 
 impl File {
@@ -150,15 +161,31 @@ impl File {
     }
 }
 
+/// The fit that the file of a material names, and the model; refuses what else stands beside them.
+fn fit_of<'a>(value: &'a Value, keys: &[&str]) -> Result<Option<(&'a str, Option<&'a str>)>, FfiError> {
+    let wrong = |message: String| FfiError::Unreadable { what: "file of a material", message };
+    let Some(object) = value.as_object().filter(|object| object.contains_key("fit")) else { return Ok(None) };
+    if let Some(key) = object.keys().find(|key| !keys.contains(&key.as_str())) {
+        return Err(wrong(format!("unknown key `{key}`; with `fit` there can be {}", keys.join(", "))));
+    }
+    let text = |key: &str| match object.get(key) {
+        None => Ok(None),
+        Some(Value::String(text)) => Ok(Some(text.as_str())),
+        Some(other) => Err(wrong(format!("`{key}` is {other}, which is no text"))),
+    };
+    let model = text("model")?;
+    Ok(text("fit")?.map(|fit| (fit, model)))
+}
+
 /// The law of a material's file.
 fn from_file(name: &str) -> Result<AnySolid, FfiError> {
     let File { text, value } = File::of(name)?;
-    if let Some(fit) = value["fit"].as_str() {
+    if let Some((fit, model)) = fit_of(&value, &["fit", "model", "volumetric"])? {
         let volumetric = match value.get("volumetric") {
             Some(written) => Some(text::volumetric_from_value(written.clone())?),
             None => None,
         };
-        return text::solid_from_fit(&read(name, fit)?, value["model"].as_str(), volumetric);
+        return text::solid_from_fit(&read(name, fit)?, model, volumetric);
     }
     if value.get("laws").is_some() { text::solid_from_fit(&text, None, None) } else { text::solid_from_value(value) }
 }

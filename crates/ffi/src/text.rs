@@ -84,16 +84,20 @@ pub fn fluid_with_names(name: &str, names: &[&str], values: &[f64]) -> Result<An
 /// The law of a fit: of the `summary.json` that `piola fit` writes, or of one of the entries of its `laws`.
 ///
 /// ```text
-/// {"best_by_aicc": "ogden:3", "laws": [{"model": "ogden:3", "parameters": [{"name": …, "value": …}, …]}, …]}
+/// {"best_by_aicc": "ogden:3", "stress_unit": "MPa",
+///  "laws": [{"model": "ogden:3", "parameters": [{"name": …, "is_stress": true, "value": …}, …]}, …]}
 /// ```
+/// Parameters in the unit of the stresses, `stress_unit`, are converted to Pa. A summary without that unit is taken as it is, in Pa. Numbers of
+/// `volumetric` are in Pa.
+///
 /// | argument | meaning |
 /// |---|---|
 /// | `model` | which of the laws, such as `yeoh`; the best by `aicc` where it is `None` |
 /// | `volumetric` | the energy of the change of volume; `None` makes the law incompressible |
 ///
 /// # Errors
-/// [`FfiError::Unreadable`] where the text is no such summary; [`FfiError::UnknownChoice`] where it has no such model; what
-/// the law's constructor refuses.
+/// [`FfiError::Unreadable`] where the text is no such summary, or the fit of the model failed; [`FfiError::UnknownChoice`] where it has no
+/// such model, or an unknown unit; what the law's constructor refuses.
 ///
 /// # Example
 /// ```
@@ -123,11 +127,40 @@ pub fn solid_from_fit(
     law.solid().cloned().ok_or_else(given)
 }
 
+/// Units of stress in their usual spellings, in Pa.
+const PRESSURES: [(&[&str], f64); 11] = [
+    (&["Pa", "pa", "PA", "N/m^2", "N/m2", "N/m²"], 1.0),
+    (&["mPa"], 1e-3),
+    (&["kPa", "kpa", "KPa"], 1e3),
+    (&["MPa", "Mpa", "N/mm^2", "N/mm2", "N/mm²"], 1e6),
+    (&["GPa"], 1e9),
+    (&["mbar"], 1e2),
+    (&["bar"], 1e5),
+    (&["atm"], 101_325.0),
+    (&["psi"], 4.448_221_615_260_5 / 0.000_645_16),
+    (&["dyn/cm^2", "dyn/cm2", "dyn/cm²"], 0.1),
+    (&["kgf/cm^2", "kgf/cm2", "kgf/cm²"], 98_066.5),
+];
+
+/// The unit of the stresses of a summary, in Pa.
+fn stress_unit(summary: &Value) -> Result<f64, FfiError> {
+    let given = match &summary["stress_unit"] {
+        Value::Null => return Ok(1.0),
+        Value::String(given) => given.clone(),
+        other => other.to_string(),
+    };
+    let found = PRESSURES.iter().find(|(spellings, _)| spellings.contains(&given.trim()));
+    found.map(|(_, unit)| *unit).ok_or_else(|| {
+        let valid = PRESSURES.iter().filter_map(|(spellings, _)| spellings.first().copied());
+        FfiError::UnknownChoice { choice: "unit of stress", given, valid: valid.collect::<Vec<_>>().join(", ") }
+    })
+}
+
 /// One law of the summary of a fit.
 pub(crate) struct Entry {
     /// The name of its model.
     pub(crate) model: String,
-    /// Its parameters in the order of the model; a name is empty where the summary has none.
+    /// Its parameters in SI units, in the order of the model; a name is empty where the summary has none.
     pub(crate) parameters: Vec<(String, f64)>,
 }
 
@@ -150,13 +183,28 @@ impl Entry {
             return Err(FfiError::UnknownChoice { choice: "model of this fit", given, valid: names.join(", ") });
         };
         let name = entry["model"].as_str().ok_or_else(|| missing("there is no `model`"))?;
-        let parameters = entry["parameters"].as_array().ok_or_else(|| missing("there are no `parameters`"))?;
-        let parameter = |parameter: &Value| {
-            let name = parameter["name"].as_str().unwrap_or_default().to_owned();
-            parameter["value"].as_f64().map(|value| (name, value))
-        };
-        let parameters: Option<Vec<(String, f64)>> = parameters.iter().map(parameter).collect();
-        let parameters = parameters.ok_or_else(|| missing("a parameter has no `value`"))?;
+        if let Some(failure) = entry["failure"].as_str() {
+            return Err(missing(&format!("the fit of `{name}` failed: {failure}")));
+        }
+        let unit = stress_unit(&summary)?;
+        let written = entry["parameters"].as_array().ok_or_else(|| missing("there are no `parameters`"))?;
+        let mut parameters = Vec::with_capacity(written.len());
+        for parameter in written {
+            let name = parameter["name"].as_str().unwrap_or_default();
+            let value = parameter["value"].as_f64().ok_or_else(|| missing("a parameter has no `value`"))?;
+            let is_stress = match &parameter["is_stress"] {
+                Value::Bool(is_stress) => *is_stress,
+                _ if summary["stress_unit"].is_null() => true,
+                _ => {
+                    return Err(missing(
+                        "there is a `stress_unit`, but a parameter does not say whether it `is_stress`",
+                    ));
+                }
+            };
+            // A viscosity has the unit of the stresses times a second.
+            let scale = if is_stress || name == "viscosity" { unit } else { 1.0 };
+            parameters.push((name.to_owned(), scale * value));
+        }
         Ok(Self { model: name.to_owned(), parameters })
     }
 }

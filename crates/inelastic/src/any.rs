@@ -113,10 +113,16 @@ macro_rules! laws {
             /// # Errors
             /// [`InelasticError::WrongSpring`].
             pub fn checked(self) -> Result<Self, InelasticError> {
-                match &self {
+                self.check_parts()?;
+                Ok(self)
+            }
+
+            /// Refuses an elastic law that cannot be what it is.
+            fn check_parts(&self) -> Result<(), InelasticError> {
+                match self {
                     $(Self::$law(law) => { $(check($name, stringify!($part), &law.$part.0, Part::$kind)?;)+ })+
                 }
-                Ok(self)
+                Ok(())
             }
 
             /// The number of its internal variables.
@@ -150,7 +156,7 @@ macro_rules! laws {
             /// stress and consistent tangent.
             ///
             /// # Errors
-            /// Those of [`InelasticPoint::with_state`], and of [`InelasticPoint::advance`]: where the update fails on its way, the state is the
+            /// [`InelasticError::WrongSpring`], as [`checked`](Self::checked); those of [`InelasticPoint::with_state`], and of [`InelasticPoint::advance`]: where the update fails on its way, the state is the
             /// last admissible one, and the error says at which share of the increment that lies.
             pub fn advance(
                 &self,
@@ -159,6 +165,7 @@ macro_rules! laws {
                 dt: f64,
                 control: &StepControl,
             ) -> Result<AnyAdvanced, InelasticError> {
+                self.check_parts()?;
                 match self {
                     $(Self::$law(law) => advance(law, state, [from, to], dt, control),)+
                 }

@@ -15,8 +15,8 @@ use piola_tensor::{MajorSymmetric, PairSymmetric};
 /// W = W₀ + S₀ : δE        S = S₀ + ∂S/∂E : δE        P = F S        τ = F S Fᵀ
 /// ```
 /// S₀ and ∂S/∂E are those of the law at plain numbers; δE is E without its value. So a law that is chosen at run time is compiled for
-/// plain numbers alone, whatever the equations of a step are differentiated by. Lanes and numbers with second derivatives go through the
-/// law itself.
+/// plain numbers alone, whatever the equations of a step are differentiated by. Of plain numbers only S₀ is computed. Lanes and numbers
+/// with second derivatives go through the law itself.
 ///
 /// # Accuracy
 /// That of the law's S and ∂S/∂E; derivatives add 8 ulp of |F|² |∂S/∂E|.
@@ -53,12 +53,19 @@ impl<L: Hyperelastic> ByTangent<L> {
         (stress, tangent.0)
     }
 
+    /// S₀ alone.
+    #[inline(never)]
+    fn plain_stress(&self, deformation: &impl Deformation<f64>) -> SecondPiola {
+        self.0.second_piola(deformation)
+    }
+
     fn chained<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
-        let (stress, tangent) = self.plain(&deformation.lifted(|_, _, x| x.primal(0)));
-        let mut components = stress.0.components.map(T::lit);
+        let at = deformation.lifted(|_, _, x| x.primal(0));
         if T::ORDER == 0 {
-            return Symmetric { components };
+            return Symmetric { components: self.plain_stress(&at).0.components.map(T::lit) };
         }
+        let (stress, tangent) = self.plain(&at);
+        let mut components = stress.0.components.map(T::lit);
         let (rows, change) = (tangent.slots(), change(deformation));
         for (component, row) in components.iter_mut().zip(rows) {
             for (place, (entry, change)) in row.into_iter().zip(change.components).enumerate() {
@@ -70,6 +77,9 @@ impl<L: Hyperelastic> ByTangent<L> {
 
     fn chained_energy<T: Real>(&self, deformation: &impl Deformation<T>, stress: &Symmetric<T>) -> T {
         let energy = T::lit(self.0.energy(&deformation.lifted(|_, _, x| x.primal(0))));
+        if T::ORDER == 0 {
+            return energy;
+        }
         energy + stress.double_contraction(&change(deformation))
     }
 }
@@ -87,7 +97,9 @@ fn first_piola<T: Real>(deformation: &impl Deformation<T>, stress: &Symmetric<T>
 
 impl<L: Hyperelastic> Hyperelastic for ByTangent<L> {
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
-        if Simple::<T>::IS {
+        if Simple::<T>::IS && T::ORDER == 0 {
+            T::lit(self.0.energy(&deformation.lifted(|_, _, x| x.primal(0))))
+        } else if Simple::<T>::IS {
             self.chained_energy(deformation, &self.chained(deformation))
         } else {
             self.0.energy(deformation)

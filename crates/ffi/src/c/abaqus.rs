@@ -3,7 +3,7 @@
 use std::ffi::c_char;
 
 use super::PiolaStatus;
-use super::memory::{slice, slice_mut};
+use super::memory::{check_apart, slice, slice_mut};
 use super::status::answer;
 use crate::materials::material;
 use crate::{FfiError, abaqus};
@@ -44,6 +44,9 @@ pub unsafe extern "C" fn piola_umat(
 ) -> PiolaStatus {
     answer(|| {
         let count = direct.saturating_add(shear);
+        let outputs =
+            [("stress", stress.cast_const(), count), ("tangent", tangent.cast_const(), count.saturating_mul(count))];
+        check_apart(&outputs, &[("properties", properties, properties_length), ("f", f, 9)])?;
         // SAFETY: as the caller promises.
         let (name, properties) =
             unsafe { (padded("name", name, name_length)?, slice("properties", properties, properties_length)?) };
@@ -81,6 +84,10 @@ pub unsafe extern "C" fn piola_vumat(
 ) -> PiolaStatus {
     answer(|| {
         let count = points.saturating_mul(direct.saturating_add(shear));
+        check_apart(
+            &[("stresses", stresses, count)],
+            &[("properties", properties, properties_length), ("stretches", stretches, count)],
+        )?;
         // SAFETY: as the caller promises.
         let (name, properties) =
             unsafe { (padded("name", name, name_length)?, slice("properties", properties, properties_length)?) };

@@ -6,7 +6,7 @@ use piola::fluids::AnyFluid;
 use piola::viscometry::Estimate;
 
 use super::PiolaStatus;
-use super::memory::{choice, hand_over, handle, put, slice, slice_mut, text, texts};
+use super::memory::{check_apart, choice, hand_over, handle, put, slice, slice_mut, text, texts};
 use super::status::answer;
 use crate::flows::{self, ViscometricFunction};
 use crate::{FfiError, text};
@@ -89,6 +89,7 @@ pub unsafe extern "C" fn piola_viscometric(
     out_length: usize,
 ) -> PiolaStatus {
     answer(|| {
+        check_apart(&[("out", out, out_length)], &[("entries", entries, entries_length)])?;
         // SAFETY: as the caller promises.
         let (fluid, entries, out) = unsafe {
             (handle("fluid", fluid)?, slice("entries", entries, entries_length)?, slice_mut("out", out, out_length)?)
@@ -165,6 +166,7 @@ pub unsafe extern "C" fn piola_pipe_velocities(
     out_length: usize,
 ) -> PiolaStatus {
     answer(|| {
+        check_apart(&[("out", out, out_length)], &[("distances", distances, distances_length)])?;
         // SAFETY: as the caller promises.
         let (fluid, distances, out) = unsafe {
             (

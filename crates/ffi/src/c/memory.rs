@@ -54,6 +54,29 @@ pub(super) unsafe fn slice_mut<'a, T>(
     Ok(unsafe { core::slice::from_raw_parts_mut(pointer, length) })
 }
 
+/// An array of numbers by its name, its place and its length.
+pub(super) type Array = (&'static str, *const f64, usize);
+
+/// Refuses outputs that overlap inputs or one another.
+pub(super) fn check_apart(outputs: &[Array], inputs: &[Array]) -> Result<(), FfiError> {
+    let ends = |&(_, pointer, length): &Array| {
+        let start = pointer.addr();
+        (start, start.saturating_add(length.saturating_mul(size_of::<f64>())))
+    };
+    // What can be no array is refused where it is made a slice.
+    let is_some = |&(argument, pointer, length): &Array| 0 < length && check(argument, pointer, length).is_ok();
+    for (number, output) in outputs.iter().enumerate() {
+        let (start, end) = ends(output);
+        for other in outputs[number + 1..].iter().chain(inputs) {
+            let (from, to) = ends(other);
+            if start < to && from < end && is_some(output) && is_some(other) {
+                return Err(FfiError::Overlap { output: output.0, other: other.0 });
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Numbers as points of K each.
 pub(super) fn points<'a, const K: usize>(
     argument: &'static str,

@@ -5,7 +5,9 @@ use std::ffi::c_char;
 use piola::solids::AnySolid;
 
 use super::PiolaStatus;
-use super::memory::{choice, hand_over, handle, optional_text, points, points_mut, slice, slice_mut, text, texts};
+use super::memory::{
+    check_apart, choice, hand_over, handle, optional_text, points, points_mut, slice, slice_mut, text, texts,
+};
 use super::status::answer;
 use crate::points::{StressMeasure, TangentMeasure, VoigtNumbering};
 use crate::{FfiError, named, points, text};
@@ -65,7 +67,8 @@ pub unsafe extern "C" fn piola_solid_from_json(json: *const c_char, made: *mut *
 /// Makes the law of a fit from the text of its `summary.json`.
 ///
 /// `model` chooses one of its laws, such as `yeoh`; a null pointer chooses the best by `aicc`. `volumetric` is the energy of the
-/// change of volume in JSON, such as `{"law": "quadratic", "bulk_modulus": 2e9}`; with a null pointer the law is incompressible.
+/// change of volume in JSON, such as `{"law": "quadratic", "bulk_modulus": 2e9}`; with a null pointer the law is incompressible. Parameters
+/// are converted from the `stress_unit` of the summary to Pa.
 ///
 /// # Safety
 /// See the [module](super).
@@ -153,6 +156,7 @@ unsafe fn evaluation<'a>(
     out: *mut f64,
     out_length: usize,
 ) -> Result<Evaluation<'a>, FfiError> {
+    check_apart(&[("out", out, out_length)], &[("f", f, f_length)])?;
     // SAFETY: as the caller promises.
     let (solid, f, out) =
         unsafe { (handle("solid", solid)?, slice("f", f, f_length)?, slice_mut("out", out, out_length)?) };
@@ -249,6 +253,11 @@ pub unsafe extern "C" fn piola_stress_and_tangent(
     tangents_length: usize,
 ) -> PiolaStatus {
     answer(|| {
+        let outputs = [
+            ("stresses", stresses.cast_const(), stresses_length),
+            ("tangents", tangents.cast_const(), tangents_length),
+        ];
+        check_apart(&outputs, &[("f", f, f_length)])?;
         // SAFETY: as the caller promises.
         let (solid, f) = unsafe { (handle("solid", solid)?, slice("f", f, f_length)?) };
         // SAFETY: as the caller promises.

@@ -13,7 +13,7 @@ use crate::FfiError;
 pub enum PiolaStatus {
     /// Everything was computed.
     Ok = 0,
-    /// A pointer that must lead somewhere is null, or does not lead to a number's boundary.
+    /// A pointer that must lead somewhere is null or does not lead to a number's boundary, or an output overlaps another array.
     BadPointer = 1,
     /// An array has another length than the arrays beside it ask for.
     WrongLength = 2,
@@ -36,7 +36,7 @@ impl FfiError {
     #[must_use]
     pub const fn status(&self) -> PiolaStatus {
         match self {
-            Self::NullPointer { .. } | Self::Misaligned { .. } => PiolaStatus::BadPointer,
+            Self::NullPointer { .. } | Self::Misaligned { .. } | Self::Overlap { .. } => PiolaStatus::BadPointer,
             Self::WrongLength { .. } => PiolaStatus::WrongLength,
             Self::NotFinite { .. } => PiolaStatus::NotFinite,
             Self::UnknownChoice { .. } | Self::Components { .. } => PiolaStatus::UnknownChoice,

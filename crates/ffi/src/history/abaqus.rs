@@ -7,7 +7,8 @@
 //! | tangent | of Jaumann's rate of τ, over J: `DDSDDE`, consistent, not symmetric in general | – |
 //! | state | `STATEV` | `stateOld` to `stateNew`, each variable an array |
 //!
-//! Each increment is one implicit step. A state of zeros alone, with which Abaqus begins, is that of the body as it was made.
+//! Each increment is one implicit step. A state of zeros alone, with which Abaqus begins, is that of the body as it was made. The state of
+//! `thermal` is the temperature at the end of the increment, which Abaqus gives: there any number counts, zero too.
 
 use piola::inelastic::{AnyInelastic, MOST_STATE};
 
@@ -17,12 +18,28 @@ use crate::abaqus::check_components;
 use crate::error::{check_finite, check_length};
 use crate::points::{StressMeasure, TangentMeasure, VoigtNumbering};
 
-/// The state of the body as it was made in the place of zeros alone.
-fn begun(law: &AnyInelastic, state: &mut [f64]) -> Result<(), FfiError> {
-    if state.iter().all(|value| value.to_bits() << 1 == 0) {
+/// The state with which an increment begins: the temperature of `thermal`, and of the body as it was made in the place of zeros alone.
+fn begun(law: &AnyInelastic, temperature: Option<f64>, state: &mut [f64]) -> Result<(), FfiError> {
+    if let (AnyInelastic::Thermal(_), Some(temperature)) = (law, temperature) {
+        state.fill(temperature);
+    } else if state.iter().all(|value| value.to_bits() << 1 == 0) {
         law.initial_into(state)?;
     }
     Ok(())
+}
+
+/// An increment of one point for UMAT.
+///
+/// # Example
+/// See [`umat`].
+#[derive(Clone, Copy, Debug)]
+pub struct PointIncrement<'a> {
+    /// F by columns before and after: `DFGRD0` and `DFGRD1`.
+    pub f: [&'a [f64; 9]; 2],
+    /// The time that it takes, s: `DTIME`.
+    pub dt: f64,
+    /// The temperature after, in the unit of the law's reference temperature: `TEMP` + `DTEMP`. Only `thermal` uses it.
+    pub temperature: f64,
 }
 
 /// T, `DDSDDE` and the new state of one point.
@@ -30,8 +47,7 @@ fn begun(law: &AnyInelastic, state: &mut [f64]) -> Result<(), FfiError> {
 /// | argument | meaning | length |
 /// |---|---|---|
 /// | `components` | numbers of direct and of shear components | |
-/// | `f` | F by columns before and after, `DFGRD0` and `DFGRD1` | 9 |
-/// | `dt` | `DTIME`, s | |
+/// | `increment` | F before and after, time, temperature | |
 /// | `state` | `STATEV` | the law's [`state_length`](AnyInelastic::state_length) |
 /// | `stress_out` | `STRESS` | `NTENS` |
 /// | `tangent_out` | `DDSDDE` by columns | `NTENS²` |
@@ -42,20 +58,20 @@ fn begun(law: &AnyInelastic, state: &mut [f64]) -> Result<(), FfiError> {
 ///
 /// # Example
 /// ```
-/// use piola_ffi::history::abaqus::umat;
+/// use piola_ffi::history::abaqus::{PointIncrement, umat};
 /// let law = piola_ffi::named::history("viscoplastic-hencky-lame", &[1.0, 1.0, 0.01, 0.0, 0.01, 0.0, 0.0])?;
 /// let (mut state, mut stress, mut tangent) = ([0.0; 10], [0.0; 6], [0.0; 36]);
 /// let still = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 /// let sheared = [1.0, 0.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.0, 1.0];
-/// umat(&law, [3, 3], [&still, &sheared], 1.0, &mut state, &mut stress, &mut tangent)?;
+/// let increment = PointIncrement { f: [&still, &sheared], dt: 1.0, temperature: 293.15 };
+/// umat(&law, [3, 3], increment, &mut state, &mut stress, &mut tangent)?;
 /// assert!((stress[3] - 0.01 / 3.0_f64.sqrt()).abs() < 1e-4 && 0.0 < state[9]); // σ₀/√3
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn umat(
     law: &AnyInelastic,
     components: [usize; 2],
-    f: [&[f64; 9]; 2],
-    dt: f64,
+    PointIncrement { f, dt, temperature }: PointIncrement<'_>,
     state: &mut [f64],
     stress_out: &mut [f64],
     tangent_out: &mut [f64],
@@ -66,12 +82,13 @@ pub fn umat(
     check_length("STATEV", law.state_length(), state.len())?;
     check_length("STRESS", count, stress_out.len())?;
     check_length("DDSDDE", count * count, tangent_out.len())?;
+    check_finite("temperature", &[temperature])?;
     let by_rows = |[a, b, c, d, e, g, h, i, j]: [f64; 9]| [[a, d, h, b, e, i, c, g, j]];
     let (from, to) = (by_rows(*f[0]), by_rows(*f[1]));
     let (mut before, mut after) = ([0.0; MOST_STATE], [0.0; MOST_STATE]);
     let (before, after) = (&mut before[..state.len()], &mut after[..state.len()]);
     before.copy_from_slice(state);
-    begun(law, before)?;
+    begun(law, Some(temperature), before)?;
     let (mut stress, mut tangent) = ([[0.0; 9]], [0.0; 36]);
     let increment = DeformationIncrement { from: &from, to: &to, dt, tolerance: None };
     let states = States { layout: StateLayout::Rows, before, after };
@@ -105,6 +122,9 @@ pub struct Stretching<'a> {
     pub added: f64,
     /// The time that it takes, s.
     pub dt: f64,
+    /// The temperatures after: `tempNew`; that of the state where it is empty, and where that is zero the reference temperature. Only `thermal`
+    /// uses them.
+    pub temperatures: &'a [f64],
 }
 
 /// Rᵀ T R and the new states of many points from their stretches.
@@ -122,7 +142,7 @@ pub struct Stretching<'a> {
 /// use piola_ffi::history::abaqus::{Stretching, vumat};
 /// let law = piola_ffi::named::history("viscoplastic-hencky-lame", &[1.0, 1.0, 0.01, 0.0, 0.01, 0.0, 0.0])?;
 /// let (old, mut new, mut stress) = ([0.0; 10], [0.0; 10], [0.0; 4]); // one point in plane strain
-/// let stretching = Stretching { before: &[], after: &[1.1, 0.9, 1.0, 0.0], added: 0.0, dt: 1.0 };
+/// let stretching = Stretching { before: &[], after: &[1.1, 0.9, 1.0, 0.0], added: 0.0, dt: 1.0, temperatures: &[] };
 /// vumat(&law, [3, 1], stretching, (&old, &mut new), &mut stress)?;
 /// assert!((stress[0] - stress[1] - 2.0 * 0.01 / 3.0_f64.sqrt()).abs() < 1e-3); // T₁₁ − T₂₂ = 2 σ₀/√3
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -136,19 +156,24 @@ pub fn vumat(
 ) -> Result<(), FfiError> {
     let [direct, shear] = components;
     check_components(direct, shear)?;
-    let Stretching { before, after, added, dt } = stretching;
+    let Stretching { before, after, added, dt, temperatures } = stretching;
     let (count, length) = (direct + shear, law.state_length());
     let points = after.len() / count;
     check_length("stretchNew", points * count, after.len())?;
     if !before.is_empty() {
         check_length("stretchOld", after.len(), before.len())?;
     }
+    if !temperatures.is_empty() {
+        check_length("tempNew", points, temperatures.len())?;
+    }
     check_length("stressNew", after.len(), stress_out.len())?;
     check_length("stateOld", points * length, old.len())?;
     check_length("stateNew", points * length, new.len())?;
     check_finite("stretchOld", before)?;
     check_finite("stretchNew", after)?;
-    let mut first_error = None;
+    check_finite("tempNew", temperatures)?;
+    check_finite("stateOld", old)?;
+    let (mut failed, mut first_error) = (0, None);
     let still = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
     let (mut from, mut to, mut stresses) = ([still; BLOCK], [still; BLOCK], [[0.0; 9]; BLOCK]);
     let (mut states, mut ends) = ([0.0; BLOCK * MOST_STATE], [0.0; BLOCK * MOST_STATE]);
@@ -164,7 +189,7 @@ pub fn vumat(
             for (k, value) in state.iter_mut().enumerate() {
                 *value = old[k * points + start + point];
             }
-            begun(law, state)?;
+            begun(law, temperatures.get(start + point).copied(), state)?;
             if !before.is_empty() {
                 from[point] = stretch(before, start + point, 0.0);
             }
@@ -174,8 +199,8 @@ pub fn vumat(
         let rows = States { layout: StateLayout::Rows, before: states, after: &mut *ends };
         match advance(law, increment, rows, StressMeasure::Cauchy, &mut stresses[..here], None) {
             Err(FfiError::BadIncrements { bad, index, error, .. }) => {
-                let shifted = FfiError::BadIncrements { bad, count: points, index: start + index, error };
-                first_error.get_or_insert(shifted);
+                failed += bad;
+                first_error.get_or_insert((start + index, error));
             }
             result => result?,
         }
@@ -189,5 +214,8 @@ pub fn vumat(
             }
         }
     }
-    first_error.map_or(Ok(()), Err)
+    match first_error {
+        None => Ok(()),
+        Some((index, error)) => Err(FfiError::BadIncrements { bad: failed, count: points, index, error }),
+    }
 }

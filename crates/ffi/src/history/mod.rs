@@ -118,8 +118,8 @@ pub fn initial_states(law: &AnyInelastic, layout: StateLayout, states: &mut [f64
 /// # Errors
 /// [`FfiError::WrongLength`], [`FfiError::NotFinite`] of the states and of the time, before anything is computed.
 /// [`FfiError::BadIncrements`] where F is no deformation, Newton's method fails or the law has no answer: stress and tangent of
-/// these points are NaN, their new state is the last admissible one, and the message says at which share of the increment that lies;
-/// all others are advanced.
+/// these points are NaN, their new state is the one before, and the message says of the first of them up to which share of the increment
+/// an update was found; all others are advanced.
 ///
 /// # Accuracy
 /// That of `StepControl`; conversions add what those of elastic laws add.
@@ -238,6 +238,7 @@ impl Batch<'_> {
             if let Err(error) = self.point(index, state, stress, tangent) {
                 bad.count += 1;
                 bad.first.get_or_insert((index, error));
+                gather(self.layout, self.before, index, state);
                 stress.fill(f64::NAN);
                 tangent.fill(f64::NAN);
             }

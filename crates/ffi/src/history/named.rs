@@ -205,7 +205,7 @@ pub fn history_with_names(name: &str, names: &[&str], values: &[f64]) -> Result<
 /// The number of internal variables of the law with this name, whatever its parameters are.
 ///
 /// # Errors
-/// [`FfiError::UnknownChoice`].
+/// [`FfiError::UnknownChoice`] and [`FfiError::WrongParameter`] of any part, as [`history`].
 ///
 /// # Example
 /// ```
@@ -213,10 +213,10 @@ pub fn history_with_names(name: &str, names: &[&str], values: &[f64]) -> Result<
 /// # Ok::<(), piola_ffi::FfiError>(())
 /// ```
 pub fn state_length(name: &str) -> Result<usize, FfiError> {
-    let first = words(name).into_iter().next().unwrap_or_default();
-    AnyInelastic::state_length_of(&first).ok_or_else(|| FfiError::UnknownChoice {
+    let law = History::of(name)?.law;
+    AnyInelastic::state_length_of(law).ok_or_else(|| FfiError::UnknownChoice {
         choice: "law with history",
-        given: first,
+        given: law.to_owned(),
         valid: list(HISTORIES.iter().map(|(law, _, _)| *law)),
     })
 }

@@ -38,9 +38,11 @@ pub fn history_from_json(text: &str) -> Result<AnyInelastic, FfiError> {
 /// |---|---|
 /// | `model` | `bergstrom-boyce`, `reese-govindjee`, `ogden-roxburgh` or `viscoplastic`; the best by `aicc` where it is `None` |
 ///
+/// Parameters are converted from the `stress_unit` of the summary to Pa, as by [`solid_from_fit`](crate::text::solid_from_fit).
+///
 /// # Errors
-/// [`FfiError::Unreadable`] where the text is no such summary; [`FfiError::UnknownChoice`] where it has no such model;
-/// [`FfiError::WrongParameter`] where a parameter is missing; what the law's constructor refuses.
+/// [`FfiError::Unreadable`] where the text is no such summary, or the fit of the model failed; [`FfiError::UnknownChoice`] where it has no
+/// such model, or an unknown unit; [`FfiError::WrongParameter`] where a parameter is missing; what the law's constructor refuses.
 ///
 /// # Example
 /// ```

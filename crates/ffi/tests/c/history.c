@@ -52,6 +52,10 @@ int main(void) {
     check(piola_history_advance(law, PIOLA_STRESS_CAUCHY, 0, 0, PIOLA_LAYOUT_ROWS, 1.0, 0.0, still, sheared, 18, states, after,
                                 17, stresses, 18, NULL, 0) == PIOLA_STATUS_WRONG_LENGTH,
           "a wrong length");
+    check(piola_history_advance(law, PIOLA_STRESS_CAUCHY, 0, 0, PIOLA_LAYOUT_ROWS, 1.0, 0.0, still, still, 18, states, states,
+                                18, stresses, 18, NULL, 0) == PIOLA_STATUS_BAD_POINTER &&
+              strstr(piola_last_error(), "`after` overlaps `before`"),
+          "new states in the memory of the old ones");
     check(piola_history_advance(law, PIOLA_STRESS_CAUCHY, 0, 0, 2, 1.0, 0.0, still, still, 18, states, after, 18, stresses, 18,
                                 NULL, 0) == PIOLA_STATUS_UNKNOWN_CHOICE,
           "a layout that is none");

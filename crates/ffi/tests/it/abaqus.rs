@@ -108,6 +108,9 @@ fn vumat_takes_blocks_by_components_and_small_strains() {
         unreachable!("U₁₁ = 0 at point 130")
     };
     assert!(stresses[130].is_nan() && stresses[131].is_finite());
+    stretches[280] = 0.0; // in another block
+    let error = vumat(&law, [3, 3], &stretches, 0.0, &mut stresses).unwrap_err();
+    assert!(matches!(error, FfiError::BadPoints { bad: 2, count: 300, index: 130, .. }), "{error}");
 }
 
 #[test]

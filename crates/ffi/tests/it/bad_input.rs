@@ -37,6 +37,20 @@ fn rubber() -> *mut PiolaSolid {
 }
 
 #[test]
+fn outputs_that_overlap_are_refused_by_name() {
+    let mut both = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(2);
+    let (solid, place) = (rubber(), both.as_mut_ptr());
+    // SAFETY: eighteen numbers; overlapping arrays are what is tried.
+    unsafe {
+        assert_eq!(piola_stress(solid, 0, place, 9, place, 9), PiolaStatus::BadPointer);
+        assert_eq!(message(), "`out` overlaps `f`; they must be different memory");
+        assert_eq!(piola_stress(solid, 0, place.add(8), 9, place, 9), PiolaStatus::BadPointer);
+        assert_eq!(piola_stress(solid, 0, place.add(9), 9, place, 9), PiolaStatus::Ok);
+        piola_solid_free(solid);
+    }
+}
+
+#[test]
 fn null_pointers_are_refused_by_name() {
     let mut out = [0.0; 9];
     let (solid, mut none) = (rubber(), null_mut());

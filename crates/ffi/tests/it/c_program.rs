@@ -26,7 +26,7 @@ fn a_program_in_c_advances_laws_with_history() {
     let flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-pedantic", &include];
     let program = compiled("cc", "c_history", &flags, &[folder.join("tests/c/history.c")]);
     let text = printed(&program, &[]);
-    assert!(text.ends_with("all 14 checks passed\n"), "{text}");
+    assert!(text.ends_with("all 15 checks passed\n"), "{text}");
 }
 
 #[test]

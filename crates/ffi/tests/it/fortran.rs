@@ -86,6 +86,14 @@ fn compare_point(law: &AnySolid, shear: usize, numbers: &[f64]) {
     let jaumann = tangent.spatial(&cauchy, &deformation).jaumann(&cauchy);
     let upper = piola::tensor::MajorSymmetric::from_slots(&jaumann.0.components);
     let square = piola::tensor::voigt::StiffnessMatrix::<f64, Abaqus>::of(&upper).entries;
+    // The way by ∂S/∂E, which shares nothing with `spatial`.
+    let (_, material) = law.second_piola_and_tangent(&deformation);
+    let other = material.truesdell(&deformation).jaumann(&cauchy);
+    let other = piola::tensor::voigt::StiffnessMatrix::<f64, Abaqus>::of(&other.0).entries;
+    let largest = other.as_flattened().iter().fold(1.0_f64, |largest, x| largest.max(x.abs()));
+    for (x, y) in square.as_flattened().iter().zip(other.as_flattened()) {
+        assert!((x - y).abs() <= 1e-12 * largest, "by ∂S/∂E: {x} {y}"); // F F F F, and F⁻¹ with stretches up to 3
+    }
     let has_no_logarithm = matches!(law, AnySolid::MooneyRivlin(_));
     for (row, entries) in square.iter().enumerate().take(count) {
         let scale = entries.iter().fold(1.0_f64, |largest, x| largest.max(x.abs()));

@@ -11,6 +11,7 @@ use piola::continuum::polar::StretchAnalysis;
 use piola::inelastic::{AnyInelastic, StepControl};
 use piola::numerics::linear::matrix3::from_rows;
 use piola::tensor::voigt::{Abaqus, StiffnessMatrix, StressVector};
+use piola_ffi::FfiError;
 use piola_ffi::c::PiolaStatus;
 use piola_ffi::c::history::{piola_history_umat, piola_history_vumat};
 
@@ -27,12 +28,13 @@ struct Element<'a> {
     shear: usize,
     state: Vec<f64>,
     f: Matrix3<f64>,
+    temperature: f64,
 }
 
 impl<'a> Element<'a> {
     fn new((name, properties): (&str, &'a [f64]), length: usize, shear: usize) -> Self {
         let name = format!("{:<80}", name.to_uppercase());
-        Self { name, properties, shear, state: vec![0.0; length], f: Matrix3::identity() }
+        Self { name, properties, shear, state: vec![0.0; length], f: Matrix3::identity(), temperature: 300.0 }
     }
 
     /// STRESS and DDSDDE by columns after an increment.
@@ -51,6 +53,7 @@ impl<'a> Element<'a> {
                 self.f.as_ptr(),
                 f.as_ptr(),
                 dt,
+                self.temperature,
                 self.state.as_mut_ptr(),
                 self.state.len(),
                 stress.as_mut_ptr(),
@@ -210,6 +213,8 @@ fn vumat_gives_the_corotated_stresses_of_umat_and_its_states() {
                     after.as_ptr(),
                     0.0,
                     0.25,
+                    [300.0; POINTS].as_ptr(),
+                    POINTS,
                     old.as_ptr(),
                     new.as_mut_ptr(),
                     length,
@@ -264,6 +269,8 @@ fn vumat_of_small_strains_in_no_time_is_elastic() {
             strains.as_ptr(),
             1.0,
             0.0,
+            std::ptr::null(),
+            0,
             old.as_ptr(),
             new.as_mut_ptr(),
             10,
@@ -288,6 +295,98 @@ fn umat_that_fails_leaves_all_as_it_is() {
     assert_eq!(Element::new(named, 8, 3).increment(&Matrix3::identity(), 0.5), Err(PiolaStatus::WrongLength));
     let wrong = ("REESE_GOVINDJEE-CHEESE", named.1);
     assert_eq!(Element::new(wrong, 9, 3).increment(&Matrix3::identity(), 0.5), Err(PiolaStatus::UnknownChoice));
+}
+
+/// The temperature at the end of an increment is that of Abaqus, zero too; with the coefficient 0 the law is its elastic part.
+#[test]
+fn thermal_strains_follow_the_temperatures_of_abaqus() {
+    let f = Matrix3::new(1.0, 0.1, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+    let (name, coefficient, reference) = ("thermal-hencky-lame", 1e-3, 20.0);
+    let properties = [2.0, 3.0, coefficient, reference];
+    let mut element = Element::new((name, &properties), 1, 3);
+    for temperature in [20.0, 45.0, 0.0, -10.0] {
+        element.temperature = temperature;
+        let (stress, _) = element.increment(&Matrix3::identity(), 0.5).unwrap();
+        // Hencky's law, held: T = P = ϑ² Pₑ(1/ϑ), Pₑ = ϑ τₑ, τₑ = −(3 λ + 2 μ) α Δθ.
+        let strain: f64 = coefficient * (temperature - reference);
+        let expected = -13.0 * strain * (3.0 * strain).exp();
+        assert!((stress[0] - expected).abs() < 1e-14, "{temperature}: {} {expected}", stress[0]);
+        assert_eq!(element.state, [temperature]);
+        let (stretching, mut new, mut stresses) = ([1.0, 1.0, 1.0, 0.0], [7.0], [0.0; 4]);
+        let law = history(name, &properties).unwrap();
+        let given = Stretching { before: &[], after: &stretching, added: 0.0, dt: 0.5, temperatures: &[temperature] };
+        vumat(&law, [3, 1], given, (&[0.0], &mut new), &mut stresses).unwrap();
+        assert!((stresses[0] - expected).abs() < 1e-14 && new == [temperature]);
+        vumat(&law, [3, 1], Stretching { temperatures: &[], ..given }, (&[0.0], &mut new), &mut stresses).unwrap();
+        assert!(stresses[0] == 0.0 && new == [reference], "at the reference temperature: {stresses:?}");
+    }
+    let mut elastic = Element::new((name, &[2.0, 3.0, 0.0, 20.0]), 1, 3);
+    let (stress, tangent) = elastic.increment(&f, 0.5).unwrap();
+    let law = piola_ffi::named::solid("hencky-lame", &[2.0, 3.0]).unwrap();
+    let (mut expected, mut square) = ([0.0; 6], [0.0; 36]);
+    piola_ffi::abaqus::umat(&law, [3, 3], f.as_slice().first_chunk().unwrap(), &mut expected, &mut square).unwrap();
+    for (x, y) in stress.iter().zip(&expected).chain(tangent.iter().zip(&square)) {
+        assert!((x - y).abs() < 1e-12, "{x} {y}"); // two ways through P and ∂P/∂F of some 7
+    }
+}
+
+/// Points that fail in several blocks are counted together; what is not finite is refused before a block is written.
+#[test]
+fn vumat_counts_failures_of_all_blocks_and_refuses_before_it_writes() {
+    const POINTS: usize = 200;
+    let law = history(LAWS[1].0, LAWS[1].1).unwrap();
+    let mut after = [vec![1.01; 3 * POINTS], vec![0.0; 3 * POINTS]].concat();
+    for point in [70, 71, 150] {
+        after[point] = 0.0; // U₁₁
+    }
+    let (mut old, mut new, mut stresses) = (vec![0.0; 9 * POINTS], vec![7.0; 9 * POINTS], vec![7.0; 6 * POINTS]);
+    let stretching = Stretching { before: &[], after: &after, added: 0.0, dt: 0.25, temperatures: &[] };
+    let error = vumat(&law, [3, 3], stretching, (&old, &mut new), &mut stresses).unwrap_err();
+    assert!(matches!(error, FfiError::BadIncrements { bad: 3, count: POINTS, index: 70, .. }), "{error}");
+    assert!(stresses[150].is_nan() && stresses[151].is_finite());
+    old[199] = f64::NAN; // of the last block
+    (new, stresses) = (vec![7.0; 9 * POINTS], vec![7.0; 6 * POINTS]);
+    let error = vumat(&law, [3, 3], stretching, (&old, &mut new), &mut stresses).unwrap_err();
+    assert!(matches!(error, FfiError::NotFinite { quantity: "stateOld", index: 199, .. }), "{error}");
+    assert!(new.iter().chain(&stresses).all(|x| x.to_bits() == 7.0_f64.to_bits()));
+}
+
+/// New states in the memory of the old ones are refused.
+#[test]
+fn vumat_refuses_outputs_that_overlap() {
+    let (name, values) = LAWS[3];
+    let padded = format!("{:<80}", name.to_uppercase());
+    let (after, mut states, mut stress) = ([1.1, 1.0, 1.0, 0.0], [7.0; 20], [7.0; 4]);
+    let place = states.as_mut_ptr();
+    let mut call = |shift: usize| {
+        // SAFETY: a padded name and arrays as long as said; the states overlap for shifts below 10, which is what is refused.
+        unsafe {
+            piola_history_vumat(
+                padded.as_ptr().cast(),
+                80,
+                values.as_ptr(),
+                values.len(),
+                1,
+                3,
+                1,
+                std::ptr::null(),
+                after.as_ptr(),
+                0.0,
+                1.0,
+                std::ptr::null(),
+                0,
+                place,
+                place.add(shift),
+                10,
+                stress.as_mut_ptr(),
+            )
+        }
+    };
+    assert_eq!(call(0), PiolaStatus::BadPointer);
+    assert_eq!(call(9), PiolaStatus::BadPointer);
+    // A state of sevens is no state of a body, but it stands apart: det Fᵢ = 0.
+    assert_eq!(call(10), PiolaStatus::BadPoints);
+    assert!(states[..10].iter().all(|x| x.to_bits() == 7.0_f64.to_bits()));
 }
 
 fn numbers(words: &[&str]) -> Vec<f64> {
@@ -344,7 +443,7 @@ fn umat_and_vumat_of_fortran_return_the_bits_of_the_library() {
                 let found = numbers(rest);
                 let (new, found) = found.split_at(42);
                 let (mut stresses, mut states) = (vec![0.0; 42], vec![0.0; 63]);
-                let stretching = Stretching { before: &stretches, after: new, added: 0.0, dt: 0.25 };
+                let stretching = Stretching { before: &stretches, after: new, added: 0.0, dt: 0.25, temperatures: &[] };
                 vumat(&viscous, [3, 3], stretching, (&old, &mut states), &mut stresses).unwrap();
                 assert_eq!(found, [&stresses[..], &states].concat());
                 (old, stretches) = (states, new.to_vec());
@@ -353,7 +452,8 @@ fn umat_and_vumat_of_fortran_return_the_bits_of_the_library() {
             ["start", ref rest @ ..] => {
                 let (found, strains) = (numbers(rest), [1e-3; 42]);
                 let (mut stresses, mut states) = (vec![0.0; 42], vec![0.0; 63]);
-                let stretching = Stretching { before: &stretches, after: &strains, added: 1.0, dt: 0.0 };
+                let stretching =
+                    Stretching { before: &stretches, after: &strains, added: 1.0, dt: 0.0, temperatures: &[] };
                 vumat(&viscous, [3, 3], stretching, (&old, &mut states), &mut stresses).unwrap();
                 assert_eq!(found, [&stresses[..], &states].concat());
                 blocks += 1;

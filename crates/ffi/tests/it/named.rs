@@ -147,8 +147,32 @@ fn a_fit_gives_its_best_law_or_the_one_that_is_named() {
         {"name": "A", "value": 0.15}, {"name": "B", "value": 0.0}, {"name": "C", "value": 0.1}]}]}"#;
     let error = solid_from_fit(own, None, None).unwrap_err().to_string();
     assert!(error.contains("`carroll` is no law of this fit; there are neo-hookean"), "{error}");
+    let failed = r#"{"laws": [{"model": "gent", "failure": "no start"}]}"#;
+    let error = solid_from_fit(failed, Some("gent"), None).unwrap_err().to_string();
+    assert!(error.contains("the fit of `gent` failed: no start"), "{error}");
     assert!(solid_from_fit("[]", None, None).is_err());
     assert!(solid_from_fit(r#"{"model": "yeoh", "parameters": [{"value": 1.0}]}"#, None, None).is_err());
+}
+
+#[test]
+fn parameters_of_a_fit_are_converted_to_pascal() {
+    let gent = |unit: &str| {
+        format!(
+            r#"{{"best_by_aicc": "gent", "stress_unit": "{unit}", "laws": [{{"model": "gent", "parameters": [
+            {{"name": "mu", "is_stress": true, "value": 0.5}}, {{"name": "Jm", "is_stress": false, "value": 30.0}}]}}]}}"#
+        )
+    };
+    let of = |modulus: f64| solid("incompressible-gent", &[modulus, 30.0]).unwrap();
+    for (unit, modulus) in [("Pa", 0.5), ("kPa", 5e2), ("MPa", 5e5), ("N/mm^2", 5e5), ("bar", 5e4)] {
+        assert_eq!(solid_from_fit(&gent(unit), None, None).unwrap(), of(modulus), "{unit}");
+    }
+    let psi = solid_from_fit(&gent("psi"), None, None).unwrap();
+    assert_eq!(psi, of(0.5 * (4.448_221_615_260_5 / 0.000_645_16))); // lbf/in², both exact by definition
+    let error = solid_from_fit(&gent("furlong"), None, None).unwrap_err().to_string();
+    assert!(error.contains("`furlong` is no unit of stress; there are Pa, "), "{error}");
+    let silent = gent("MPa").replace("\"is_stress\": true, ", "");
+    let error = solid_from_fit(&silent, None, None).unwrap_err().to_string();
+    assert!(error.contains("does not say whether it `is_stress`"), "{error}");
 }
 
 #[test]

@@ -16,6 +16,26 @@ use super::paths::{bergstrom_boyce, reese_govindjee};
 
 type Fallible = Result<(), Box<dyn Error>>;
 
+/// A law that was never checked refuses a spring that cannot flow when it is advanced.
+#[cfg(feature = "any")]
+#[test]
+fn laws_that_were_not_checked_refuse_anisotropic_springs() -> Fallible {
+    use piola_inelastic::{AnyInelastic, ByTangent, InSeries};
+    use piola_solids::{AnySolid, Fibre, ReinforcedNeoHookean};
+    let tissue = ReinforcedNeoHookean::new(1.0, 2.0, 3.0, Fibre::new([1.0, 0.0, 0.0])?)?;
+    let spring = ByTangent(AnySolid::from(tissue));
+    let law = AnyInelastic::InSeries(InSeries::new(spring.clone(), spring, 0.5)?);
+    let mut state = [0.0; 9];
+    law.initial_into(&mut state)?;
+    let f = DeformationGradient::identity();
+    let error = law.advance(&mut state, [&f, &f], 1.0, &StepControl::one_step()).err();
+    assert!(
+        matches!(error, Some(InelasticError::WrongSpring { part: "first", found: "anisotropic", .. })),
+        "{error:?}"
+    );
+    Ok(())
+}
+
 /// (x − 1)² = 3/2 − F₁₁: no solution beyond F₁₁ = 3/2.
 #[derive(Debug)]
 struct Ends;

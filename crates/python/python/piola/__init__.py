@@ -118,7 +118,8 @@ class Solid:
         """The law of a fit, from the text of the ``summary.json`` that the program ``piola fit`` writes.
 
         ``model`` chooses one of its laws; without it the best by AICc is taken. ``volumetric`` is the energy of the change of
-        volume, such as ``{"law": "quadratic", "bulk_modulus": 1e9}``; without it the law is incompressible.
+        volume, such as ``{"law": "quadratic", "bulk_modulus": 1e9}``; without it the law is incompressible. Parameters are converted
+        from the unit of stress of the fit to Pa.
         """
         volume = None if volumetric is None else _json.dumps(dict(volumetric))
         return cls._of(_native.Solid.from_fit(summary, model, volume))
@@ -299,7 +300,8 @@ class History:
     def from_fit(cls, summary: str, model: str | None = None) -> History:
         """The law of a fit of laws with history, from the text of the ``summary.json`` that ``piola fit`` writes.
 
-        ``model`` chooses one of its laws, such as ``reese-govindjee``; without it the best by AICc is taken.
+        ``model`` chooses one of its laws, such as ``reese-govindjee``; without it the best by AICc is taken. Parameters are converted
+        from the unit of stress of the fit to Pa.
         """
         return cls._of(_native.History.from_fit(summary, model))
 
@@ -369,7 +371,7 @@ class History:
         estimated error of the internal variables; without it the increment is one implicit step.
 
         Where the update fails the point is bad: a ``ValueError``, or NaN in stress and tangent with ``bad_points="nan"``; its new state is
-        the last admissible one. All other points are advanced in either case.
+        the one before. All other points are advanced in either case.
         """
         after = _array("after", after, (3, 3))
         before = _array("before", np.broadcast_to(np.asarray(before, dtype=np.float64), after.shape), (3, 3))
@@ -596,7 +598,7 @@ def fit_solid(model: str, tests: Iterable[Mapping[str, Any]], **options: Any) ->
     Options: ``weighting`` (``largest_stress``, ``equal``), ``stability`` (``required``, ``free``), ``bounds`` ({name: (low, high)}),
     ``confidence`` (0.95), ``patience`` (200). The result is the fit as a dictionary: ``model``, ``parameters`` with ``value``,
     ``standard_error`` and ``interval``, ``tests`` with ``residuals``, ``criteria``, ``converged``, ``stable`` and more. The law itself is
-    ``Solid.from_fit(json.dumps(fit), volumetric=...)``.
+    ``Solid.from_fit(json.dumps(fit), volumetric=...)``, in the unit of your stresses.
     """
     tables = []
     for test in tests:
