@@ -95,8 +95,8 @@ pub(super) const SAFETY: f64 = 2.0;
 /// Rows left out one at a time, at most.
 pub(super) const LEFT_OUT: usize = 40;
 
-/// Bands of smoothed curves are wider by this factor: λ follows the rows too. Measured: without it the bands of Newtonian fluids and power laws
-/// hold some 91 % of the curves.
+/// Bands of smoothed curves are wider by this factor: λ follows the rows too. Chosen with the fluids and flows of the tables of coverage: without
+/// it the bands of Newtonian fluids and power laws hold some 91 % of the curves.
 const SELECTED: f64 = 1.12;
 
 /// A recovered curve: abscissas, the recovered quantity, and what bands follow from.
