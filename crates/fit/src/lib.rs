@@ -26,8 +26,10 @@ mod statistics;
 #[doc(hidden)]
 pub mod internal {
     #[cfg(any(feature = "fluids", feature = "solids"))]
-    pub use crate::anew::{Again, Anew, Change};
+    pub use crate::anew::{Again, Anew, Change, check_intervals};
     pub use crate::search::{End, Misfit, Range, minimise};
+    #[cfg(feature = "solids")]
+    pub use crate::sides::fit_sides_shifted;
 }
 
 pub use error::FitError;

@@ -231,19 +231,20 @@ pub enum Intervals {
     /// From the covariance, as if the law were linear in its parameters near the best ones.
     #[default]
     Linear,
-    /// By profile likelihood: each parameter is moved, with all others fitted anew, until S exceeds its least by the share t²/(m − k).
+    /// By profile likelihood: each parameter is moved, with all others fitted anew, until S exceeds its least by the share (t w)²/(m − k),
+    /// w the widening by correlated residuals.
     Profile,
     /// By the bootstrap: the law is fitted anew to data that it would have made with errors drawn from the residuals of each test, in blocks where
-    /// neighbours are correlated.
+    /// neighbours are correlated. Linear intervals stay where more than a tenth of these fits fail.
     Bootstrap {
-        /// Fits made anew; 1000 tell the ends of a 95 % interval to some 3 % of its width.
+        /// Fits made anew, 200 to 100,000; 1000 tell the ends of a 95 % interval to some 3 % of its width.
         samples: usize,
         /// The seed of the random numbers.
         seed: u64,
     },
 }
 
-/// Where the least S at a fixed value of a parameter exceeds its least of all by t²/(m − k), on both sides.
+/// Where the least S at a fixed value of a parameter exceeds its least of all by the share (t w)²/(m − k), on both sides.
 ///
 /// `squares(v)` is the least S with the parameter at v; `scale` a first step; an end at which no such value is found is the bound.
 #[cfg(any(feature = "fluids", feature = "solids"))]

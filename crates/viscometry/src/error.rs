@@ -135,8 +135,7 @@ pub enum ViscometryError {
     /// Speeds of coaxial cylinders fall towards the smallest torque as those of a fluid that yields.
     #[error(
         "the speeds fall towards the smallest torque as those of a fluid that yields: shear rates are known from the stress \
-         {above:e} Pa on, where the outer cylinder has the smallest measured one; below, or in another gap, fit a fluid with \
-         a yield stress"
+         {above:e} Pa on; below, too much of a rate depends on torques that were not measured: fit a fluid with a yield stress"
     )]
     YieldUnknown {
         /// Rows of the table.

@@ -30,7 +30,7 @@ use core::cell::Cell;
 use nalgebra::DMatrix;
 use piola_fluids::{Parameters, ViscometricFluid};
 
-use crate::anew::{Anew, Change};
+use crate::anew::{Anew, Change, check_intervals};
 use crate::search::Range;
 use crate::statistics::{interval, profile};
 use crate::{FitError, student};
@@ -199,6 +199,7 @@ fn fit_model(
     if !(0.0 < options.confidence && options.confidence < 1.0) {
         return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
     }
+    check_intervals(options.intervals)?;
     let rows: usize = data.iter().map(FlowData::len).sum();
     let n = model.names.len();
     if rows < n {
@@ -239,6 +240,7 @@ fn fit_model(
         sets.push(these.to_vec());
         rest = others;
     }
+    let evaluations_of_the_fit = evaluations.get();
     let statistics = Statistics::new(&problem, &best, &DMatrix::from_row_slice(rows, n, &slopes), &sets, options);
     let mut parameters: Vec<FluidParameter> = (0..n).map(|k| statistics.parameter(k)).collect();
     statistics.resample(&mut parameters, &sets, options);
@@ -250,8 +252,8 @@ fn fit_model(
         degrees_of_freedom: statistics.degrees_of_freedom,
         autocorrelation: statistics.autocorrelation,
         criteria: Criteria::new(rows, n, best.squares),
-        outcome: best.outcome,
-        evaluations: evaluations.get(),
+        outcome: if options.intervals != Intervals::Linear && stop() { Outcome::Interrupted } else { best.outcome },
+        evaluations: evaluations_of_the_fit,
         starts_that_agree,
         covariance: statistics.covariance,
     })
@@ -344,11 +346,9 @@ impl<'p> Statistics<'p> {
                 return none;
             }
         }
-        let interval = match self.intervals {
-            Intervals::Profile => self.profile(k, error, limit),
-            // That of the bootstrap comes for all parameters at once.
-            Intervals::Linear | Intervals::Bootstrap { .. } => interval(value, bounds, half),
-        };
+        // That of the bootstrap comes for all parameters at once; the linear one stays where the profile is interrupted.
+        let profile = (self.intervals == Intervals::Profile).then(|| self.profile(k, error, limit));
+        let interval = profile.filter(|_| !(self.problem.stop)()).unwrap_or_else(|| interval(value, bounds, half));
         FluidParameter { standard_error: Some(error), interval: Some(interval), state: State::Determined, ..none }
     }
 
@@ -367,7 +367,7 @@ impl<'p> Statistics<'p> {
             widening: self.autocorrelation.map_or(1.0, |found| found.widening),
             confidence: options.confidence,
         };
-        let anew = fitted.intervals(self.intervals, &mut |change| {
+        let mut again = |change: Change<'_>| {
             let Change::Shifted(shift) = change else { return None };
             let residuals = |data: &[FlowData], parameters: &[f64]| {
                 let (mut residuals, slopes) = (model.residuals)(data, parameters)?;
@@ -377,7 +377,8 @@ impl<'p> Statistics<'p> {
             let model = Model { residuals: &residuals, ..*model };
             let problem = Problem { model: &model, data, ranges: self.problem.ranges.clone(), ..*self.problem };
             problem.search(&self.best.parameters).map(|best| (best.parameters, best.squares))
-        });
+        };
+        let anew = fitted.intervals(self.intervals, &mut again, self.problem.stop);
         for (parameter, interval) in parameters.iter_mut().zip(anew.into_iter().flatten()) {
             if parameter.standard_error.is_some() {
                 parameter.interval = interval;
@@ -419,7 +420,7 @@ impl<'p> Statistics<'p> {
             let middle = (inside * outside).sqrt();
             if exceeds(middle) { outside = middle } else { inside = middle }
         }
-        Some([low, outside])
+        (!(self.problem.stop)()).then_some([low, outside])
     }
 }
 

@@ -17,7 +17,7 @@ use core::cell::Cell;
 
 use nalgebra::DMatrix;
 
-use crate::anew::{Anew, Change};
+use crate::anew::{Anew, Change, check_intervals};
 use crate::estimates::{Estimates, estimates, narrowed};
 use crate::search::{Misfit, Range, minimise};
 use crate::solids::SolidParameter;
@@ -190,6 +190,7 @@ pub fn fit_history_until(
     if !(0.0 < options.confidence && options.confidence < 1.0) {
         return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
     }
+    check_intervals(options.intervals)?;
     if tests.is_empty() {
         return Err(FitError::NoTests);
     }
@@ -255,7 +256,9 @@ pub fn fit_history_until(
         widening: autocorrelation.map_or(1.0, |found| found.widening),
         confidence: options.confidence,
     };
-    let anew = fitted.intervals(options.intervals, &mut |change| problem.again(change, &theta, options.patience, stop));
+    let evaluations = problem.evaluations.get();
+    let mut again = |change: Change<'_>| problem.again(change, &theta, options.patience, stop);
+    let anew = fitted.intervals(options.intervals, &mut again, stop);
     for (parameter, interval) in parameters.iter_mut().zip(anew.into_iter().flatten()) {
         parameter.interval = interval;
     }
@@ -267,8 +270,8 @@ pub fn fit_history_until(
         degrees_of_freedom,
         criteria,
         autocorrelation,
-        outcome: end.outcome,
-        evaluations: problem.evaluations.get(),
+        outcome: if options.intervals != Intervals::Linear && stop() { Outcome::Interrupted } else { end.outcome },
+        evaluations,
     })
 }
 

@@ -37,7 +37,7 @@ use nalgebra::DMatrix;
 use piola_fluids::AnyFluid;
 
 use crate::FitError;
-use crate::anew::{Anew, Change};
+use crate::anew::{Anew, Change, check_intervals};
 use crate::estimates::{FitStatistics, statistics_of};
 use crate::search::{Misfit, Range, minimise};
 
@@ -248,6 +248,7 @@ pub fn fit_nonlinear_until(
     if !(0.0 < options.confidence && options.confidence < 1.0) {
         return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
     }
+    check_intervals(options.intervals)?;
     options.modes.check()?;
     let is_second =
         |set: &NonlinearData| set.flow().shear_response() == Some(ShearResponse::SecondNormalStressDifference);
@@ -317,11 +318,12 @@ pub fn fit_nonlinear_until(
         confidence: options.confidence,
     };
     let walk = Walk { model, modes: &options.modes, data, ranges: &ranges, shift: &[], evaluations: &evaluations };
+    let evaluations_of_the_fit = evaluations.get();
     let mut again = |change: Change<'_>| {
         let (values, squares) = walk.again(change, &x, options.patience.max(1), stop)?;
         Some((sorted_modes(values, model.places(&options.modes)), squares))
     };
-    let anew = fitted.intervals(options.intervals, &mut again);
+    let anew = fitted.intervals(options.intervals, &mut again, stop);
     for (parameter, interval) in parameters.iter_mut().zip(anew.into_iter().flatten()) {
         parameter.interval = interval;
     }
@@ -341,7 +343,7 @@ pub fn fit_nonlinear_until(
         autocorrelation,
         criteria,
         outcome: if stop() { Outcome::Interrupted } else { end.outcome },
-        evaluations: evaluations.get(),
+        evaluations: evaluations_of_the_fit,
         starts_that_agree,
     })
 }

@@ -26,7 +26,7 @@ use crate::search::{Misfit, Range, minimise};
 use crate::solids::SolidParameter;
 use crate::statistics::{Autocorrelation, Criteria};
 use crate::{FitError, Outcome};
-use test::{Output, Point};
+use test::{Output, Point, shifted};
 
 use model::oblique_energy;
 
@@ -152,10 +152,27 @@ impl SidesFit {
 /// # Ok::<(), piola_fit::FitError>(())
 /// ```
 pub fn fit_sides(model: SidesModel, tests: &[SidesTest], options: &SidesOptions) -> Result<SidesFit, FitError> {
+    fit_sides_shifted(model, tests, options, &[])
+}
+
+/// The same with numbers added to the residuals over their scales: of each test those of the stresses, then those of the lateral stretches.
+///
+/// # Errors
+/// As [`fit_sides`].
+pub fn fit_sides_shifted(
+    model: SidesModel,
+    tests: &[SidesTest],
+    options: &SidesOptions,
+    shift: &[f64],
+) -> Result<SidesFit, FitError> {
     if !(0.0 < options.confidence && options.confidence < 1.0) {
         return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
     }
-    let problem = Problem::new(model, tests, &options.bounds)?;
+    let mut problem = Problem::new(model, tests, &options.bounds)?;
+    let mut shift = shift;
+    for [begin, end] in &problem.parts {
+        shift = shifted(&mut problem.points[*begin..*end], shift);
+    }
     let points = problem.rows();
     let searched: Vec<usize> = (0..problem.ranges.len()).filter(|&k| !problem.ranges[k].is_fixed()).collect();
     if points < searched.len() {

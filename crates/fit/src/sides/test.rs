@@ -89,6 +89,22 @@ pub(super) struct Point {
     pub(super) outputs: Vec<(Output, f64, f64)>,
 }
 
+/// Adds numbers to the residuals of the points of a test over their scales, first those of the stresses; returns the numbers that are left.
+pub(super) fn shifted<'s>(points: &mut [Point], mut shift: &'s [f64]) -> &'s [f64] {
+    for is_lateral in [false, true] {
+        let outputs = points.iter_mut().flat_map(|point| &mut point.outputs);
+        for (_, measured, scale) in
+            outputs.filter(|(output, ..)| matches!(output, Output::Lateral { .. }) == is_lateral)
+        {
+            if let [first, others @ ..] = shift {
+                *measured -= first * *scale;
+                shift = others;
+            }
+        }
+    }
+    shift
+}
+
 impl SidesTest {
     /// Of a table.
     ///

@@ -30,16 +30,16 @@ impl AnyModel {
 
     /// Fits the law to each test alone, as [`alone`] does.
     #[must_use]
-    pub fn alone(&self, data: &Data, options: &Options, joint: &Fit) -> Vec<Alone> {
-        alone(self, data, options, joint)
+    pub fn alone(&self, data: &Data, options: &Options, joint: &Fit, stop: &dyn Fn() -> bool) -> Vec<Alone> {
+        alone(self, data, options, joint, stop)
     }
 
     /// Predicts each test from a fit to the others, as [`held_out`] does.
     ///
     /// # Errors
     /// As [`held_out`].
-    pub fn held_out(&self, data: &Data, options: &Options) -> Result<Vec<HeldOut>, FitError> {
-        held_out(self, data, options)
+    pub fn held_out(&self, data: &Data, options: &Options, stop: &dyn Fn() -> bool) -> Result<Vec<HeldOut>, FitError> {
+        held_out(self, data, options, stop)
     }
 
     /// Stresses of the fitted law with their intervals, as [`predict`] finds them.

@@ -1,6 +1,6 @@
 //! What each test says alone, and what the others say of it.
 
-use super::{Data, Fit, Fitted, Model, Options, Residuals, Role, SolidParameter, State, fit_from};
+use super::{Data, Fit, Fitted, Intervals, Model, Options, Residuals, Role, SolidParameter, State, fit_from};
 use crate::FitError;
 
 /// A law fitted to one test alone.
@@ -49,7 +49,8 @@ pub struct HeldOut {
     pub residuals: Residuals,
 }
 
-/// The law fitted to each test alone that has more numbers than the law has parameters; from the joint fit, so that it costs little.
+/// The law fitted to each test alone that has more numbers than the law has parameters; from the joint fit, so that it costs little. Once `stop`
+/// says so, those before come.
 ///
 /// # Example
 /// ```
@@ -62,24 +63,27 @@ pub struct HeldOut {
 /// let data = Data::new(vec![bar, sheet])?;
 /// let options = Options::default();
 /// let joint = fit(&AnyModel::NeoHookean, &data, &options)?;
-/// let found = contradictions(&alone(&AnyModel::NeoHookean, &data, &options, &joint));
+/// let found = contradictions(&alone(&AnyModel::NeoHookean, &data, &options, &joint, &|| false));
 /// assert_eq!((found.len(), found[0].parameter.as_str()), (1, "mu"));
 /// // The bar alone predicts half the stresses of the sheet.
-/// let predicted = held_out(&AnyModel::NeoHookean, &data, &options)?;
+/// let predicted = held_out(&AnyModel::NeoHookean, &data, &options, &|| false)?;
 /// assert!((predicted[1].residuals.relative_largest - 0.5).abs() < 0.02);
 /// # Ok::<(), piola_fit::FitError>(())
 /// ```
 #[must_use]
-pub fn alone<M: Model>(model: &M, data: &Data, options: &Options, joint: &Fit) -> Vec<Alone> {
+pub fn alone<M: Model>(model: &M, data: &Data, options: &Options, joint: &Fit, stop: &dyn Fn() -> bool) -> Vec<Alone> {
     let reach = data.largest_first_invariant();
     let searched = model.parameters(reach).into_iter().zip(joint.values());
     let start: Vec<f64> = searched.filter(|(own, _)| own.role == Role::Nonlinear).map(|(_, value)| value).collect();
     let one = |test: &super::Test| {
-        if test.informative() <= joint.parameters.len() {
+        if stop() || test.informative() <= joint.parameters.len() {
             return None;
         }
         let data = Data::new(vec![test.clone()]).ok()?;
-        let fit = fit_from(model, &data, options, Some(vec![start.clone()]), &|| false).ok()?;
+        let fit = fit_from(model, &data, options, Some(vec![start.clone()]), stop).ok()?;
+        if stop() {
+            return None;
+        }
         let relative_rms = fit.tests.first()?.relative_rms;
         Some(Alone { test: test.name().to_owned(), parameters: fit.parameters, relative_rms })
     };
@@ -112,16 +116,26 @@ pub fn contradictions(alone: &[Alone]) -> Vec<Contradiction> {
     found
 }
 
-/// Each test as the law predicts it that is fitted to all the others.
+/// Each test as the law predicts it that is fitted to all the others. Once `stop` says so, those before come.
 ///
 /// # Errors
 /// As [`fit`](super::fit) for the fits to the others.
-pub fn held_out<M: Model>(model: &M, data: &Data, options: &Options) -> Result<Vec<HeldOut>, FitError> {
+pub fn held_out<M: Model>(
+    model: &M,
+    data: &Data,
+    options: &Options,
+    stop: &dyn Fn() -> bool,
+) -> Result<Vec<HeldOut>, FitError> {
+    // A prediction needs no intervals.
+    let options = Options { intervals: Intervals::Linear, ..options.clone() };
     let mut found = Vec::new();
     for (index, test) in data.tests().iter().enumerate() {
         let others: Vec<_> =
             data.tests().iter().enumerate().filter(|(k, _)| *k != index).map(|(_, t)| t.clone()).collect();
-        let fit = fit_from(model, &Data::new(others)?, options, None, &|| false)?;
+        let fit = fit_from(model, &Data::new(others)?, &options, None, stop)?;
+        if stop() {
+            break;
+        }
         found.push(HeldOut { residuals: test.beside(model, &fit)? });
     }
     Ok(found)

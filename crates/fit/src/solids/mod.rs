@@ -43,6 +43,7 @@ use piola_laws::rubber::AnyRubber;
 use piola_solids::AnyVolumetric;
 
 use crate::FitError;
+use crate::anew::check_intervals;
 use search::Problem;
 
 /// The divisor of the residuals.
@@ -275,6 +276,7 @@ fn fit_from<M: Model>(
     if !(0.0 < options.confidence && options.confidence < 1.0) {
         return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
     }
+    check_intervals(options.intervals)?;
     if let Some(first) = data.tests().first().filter(|_| data.tests().iter().all(Test::is_at_rest)) {
         let (test, value) = (first.name().to_owned(), first.abscissas().next().unwrap_or(1.0));
         return Err(FitError::NothingDeformed { test, value });
@@ -321,10 +323,11 @@ fn fit_from<M: Model>(
     // What is solved directly cannot be worse than what it contains.
     let searched = best.outcome != Outcome::LinearSolution && few.is_none();
     if options.bounds.is_empty() && loaded && (unstable || searched) {
+        let linear = Options { intervals: Intervals::Linear, ..options.clone() };
         for (contained, places) in model.contained() {
             let few = contained.starts(reach);
             let few = few.iter().step_by(few.len().div_ceil(FEW_STARTS).max(1)).cloned().collect();
-            let Ok(lower) = fit_from(&contained, data, options, Some(few), stop) else { continue };
+            let Ok(lower) = fit_from(&contained, data, &linear, Some(few), stop) else { continue };
             if lower.weighted_squares < best.squares * (1.0 - 1e-9) && lower.outcome != Outcome::NoStiffness {
                 best = problem.not_worse(&Embedding::embed(&places, &lower.values()), lower.weighted_squares, &fan);
             }

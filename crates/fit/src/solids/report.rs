@@ -1,7 +1,9 @@
 //! Statistics at the end of a search.
 
 use super::search::{Best, Problem};
-use super::{Fit, Intervals, Model, Options, Parameter, Residuals, SolidParameter, StabilityReport, State, stability};
+use super::{
+    Fit, Intervals, Model, Options, Outcome, Parameter, Residuals, SolidParameter, StabilityReport, State, stability,
+};
 use crate::anew::{Anew, Change};
 use crate::statistics::{Autocorrelation, Covariance, Criteria, interval, profile, student};
 
@@ -53,21 +55,24 @@ pub(super) fn result<M: Model>(
         };
         let standard_error = covariance.standard_error(k).filter(|_| has_errors);
         let bounds = problem.bounds(k, theta);
-        let interval = standard_error.zip(quantile).map(|(error, quantile)| match options.intervals {
-            // That of the bootstrap comes for all parameters at once.
-            Intervals::Linear | Intervals::Bootstrap { .. } => interval(theta[k], bounds, quantile * error),
-            Intervals::Profile => {
+        let interval = standard_error.zip(quantile).map(|(error, quantile)| {
+            // That of the bootstrap comes for all parameters at once; the linear one stays where the profile is interrupted.
+            let profile = (options.intervals == Intervals::Profile).then(|| {
                 let limit = best.squares + quantile * quantile * variance;
                 let mut squares = |value: f64| problem.again(Change::Held(k, value), best).map(|(_, squares)| squares);
                 profile(theta[k], bounds, error, (best.squares, limit), &mut squares)
-            }
+            });
+            let is_whole = |_: &[f64; 2]| !(problem.stop)();
+            profile.filter(is_whole).unwrap_or_else(|| interval(theta[k], bounds, quantile * error))
         });
         let (name, is_stress) = (parameter.name.clone(), parameter.is_stress);
         SolidParameter { name, is_stress, value: theta[k], standard_error, interval, state }
     };
+    let evaluations = problem.evaluations();
     let mut parameters: Vec<SolidParameter> = problem.parameters.iter().enumerate().map(estimate).collect();
     let freedom = (degrees_of_freedom, widening);
     resample(problem, best, &mut parameters, (options, values.as_slice()), freedom);
+    let is_interrupted = options.intervals != Intervals::Linear && (problem.stop)();
     Fit {
         model: problem.model.name(),
         parameters,
@@ -84,8 +89,8 @@ pub(super) fn result<M: Model>(
         // W = μ ε:ε at rest.
         initial_shear_modulus: 0.5 * stability::least_modulus(problem.model, [0.0; 3], theta),
         stability,
-        outcome: best.outcome,
-        evaluations: problem.evaluations(),
+        outcome: if is_interrupted { Outcome::Interrupted } else { best.outcome },
+        evaluations,
         starts,
         starts_that_agree,
         covariance: has_errors.then_some(covariance),
@@ -128,13 +133,14 @@ fn resample<M: Model>(
         confidence: options.confidence,
     };
     let mut shifts = vec![0.0; row];
-    let anew = fitted.intervals(options.intervals, &mut |change| {
+    let mut again = |change: Change<'_>| {
         let Change::Shifted(of_points) = change else { return None };
         places.iter().zip(of_points).for_each(|(place, shift)| shifts[*place] = *shift);
         let (mut values, squares) = problem.again(Change::Shifted(&shifts), best)?;
         problem.model.order(&mut values);
         Some((values, squares))
-    });
+    };
+    let anew = fitted.intervals(options.intervals, &mut again, problem.stop);
     for (parameter, interval) in parameters.iter_mut().zip(anew.into_iter().flatten()) {
         parameter.interval = interval;
     }

@@ -320,3 +320,24 @@ fn tables_starts_and_laws_without_an_answer_are_refused_by_name() -> Fallible {
     assert!(index <= 1 && !matches!(*error, InelasticError::OutOfBounds { .. }), "{error}");
     Ok(())
 }
+
+/// In a hold the strain creeps by a millionth while the stress relaxes: that is no stiffness.
+#[test]
+fn starts_take_no_hold_for_a_secant_and_see_an_unloading_after_it() -> Fallible {
+    let loaded = (1..6).map(f64::from).map(|k| [k, 0.1 * k, 0.2 * k]);
+    let held = (1..6).map(f64::from).map(|k| [5.0 + k, 0.5 + 1e-6 * k, 1.0 - 0.1 * k]);
+    let rows: Vec<[f64; 3]> = loaded.chain(held).collect();
+    let load_and_hold = [HistoryTest::new("t", Loading::SimpleShear, &rows)?];
+    for start in AnyHistoryModel::BergstromBoyce.starts(&load_and_hold) {
+        // Secants are 2.
+        assert!(0.6 < start[0] && start[0] < 2.1 && 0.6 < start[2] && start[2] < 2.1, "{start:?}");
+    }
+    let metal = |tests: &[HistoryTest]| AnyHistoryModel::Viscoplastic.starts(tests);
+    let starts = metal(&load_and_hold);
+    assert!((starts[1][0] / starts[0][0] - 2.0).abs() < 1e-12, "{starts:?}");
+    let unloaded = [[6.0, 0.5, 0.9], [7.0, 0.4, 0.7], [8.0, 0.3, 0.5]];
+    let rows: Vec<[f64; 3]> = rows[..5].iter().copied().chain(unloaded).collect();
+    let starts = metal(&[HistoryTest::new("t", Loading::SimpleShear, &rows)?]);
+    assert!((starts[1][0] / starts[0][0] - 1.0).abs() < 1e-12, "{starts:?}");
+    Ok(())
+}

@@ -250,3 +250,18 @@ fn tests_with_sides_are_refused_by_name() -> Fallible {
     assert!(matches!("foam".parse::<SidesModel>(), Err(FitError::UnknownSidesModel { .. })));
     Ok(())
 }
+
+/// P = (2 μ/α)(λ² − λₜ²)/λ is linear in μ: residuals that are greater by a tenth of the stresses ask for nine tenths of μ, and the scales stay.
+#[test]
+fn shifted_residuals_ask_for_the_law_of_shifted_stresses() -> Fallible {
+    let tests = of_foam(&[FoamTerm { modulus: 3.0, exponent: 2.0, poisson_ratio: 0.25 }])?;
+    let mut shift = Vec::new();
+    for test in &tests {
+        shift.extend(test.rows().iter().map(|row| 0.1 * row.1 / test.largest_stress()));
+        shift.extend(test.rows().iter().filter_map(|row| row.2).map(|_| 0.0));
+    }
+    let foam: SidesModel = "hyperfoam:1".parse()?;
+    let found = piola_fit::internal::fit_sides_shifted(foam, &tests, &SidesOptions::default(), &shift)?;
+    assert_close("parameters", &found.values(), &[2.7, 2.0, 0.25], FOUND);
+    Ok(())
+}

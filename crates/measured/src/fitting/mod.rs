@@ -166,12 +166,12 @@ pub fn compare_until(
         let fit = law.fit_until(&data, &options, stop)?;
         let predicted = held.iter().map(|test| law.residuals(test, &fit)).collect::<Result<_, _>>()?;
         let left_out = if request.cross_validation && 1 < data.tests().len() && !stop() {
-            law.held_out(&data, &options)
+            law.held_out(&data, &options, stop)
                 .map_or_else(|_| Vec::new(), |tests| tests.into_iter().map(|test| test.residuals).collect())
         } else {
             Vec::new()
         };
-        let contradictions = if stop() { Vec::new() } else { contradictions(&law.alone(&data, &options, &fit)) };
+        let contradictions = contradictions(&law.alone(&data, &options, &fit, stop));
         Ok(FittedLaw { fit, contradictions, predicted, left_out })
     }))
 }

@@ -44,10 +44,26 @@ impl Curve {
         let (flow_in_words, why) = (words(flow), self.stops.as_ref()?);
         Some(match self.points.last() {
             Some([last, _]) => {
-                format!("the curve of {flow_in_words} stops after {last:.4} {}: {why}", unit_of_drive(flow))
+                format!(
+                    "the curve of {flow_in_words} stops after {} {}: {why}",
+                    significant(*last),
+                    unit_of_drive(flow)
+                )
             }
             None => format!("no curve of {flow_in_words}: {why}"),
         })
+    }
+}
+
+/// A positive number to three significant digits, not as a power of ten where it is near one.
+pub(super) fn significant(x: f64) -> String {
+    if (1e-3..1e4).contains(&x) {
+        let decimals = (2.0 - x.log10().floor()).clamp(0.0, 5.0);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 5")]
+        let decimals = decimals as usize;
+        format!("{x:.decimals$}")
+    } else {
+        format!("{x:.2e}")
     }
 }
 

@@ -3,7 +3,7 @@
 use piola_charts::{LogPanel, figure};
 use piola_fit::nonlinear::{NonlinearData, NonlinearFlow, ShearResponse};
 
-use super::curves::unit_of_drive;
+use super::curves::{significant, unit_of_drive};
 use super::{NonlinearComparison, NonlinearTable};
 
 /// Title and axes of the panel of a flow.
@@ -45,15 +45,18 @@ pub(super) fn drawn(table: &NonlinearTable, found: &NonlinearComparison) -> Stri
         if let Some((model, fitted)) = shown {
             let curve = fitted.curve(model, set);
             if curve.in_words(set.flow()).is_some() {
-                let last = curve.points.last().map(|[last, _]| format!("{last:.3} {}", unit_of_drive(set.flow())));
-                ends[place].push(last.unwrap_or_else(|| "nothing".to_owned()));
+                let unit = unit_of_drive(set.flow());
+                ends[place].push(match curve.points.last() {
+                    Some([last, _]) => format!("curve ends at {} {unit}", significant(*last)),
+                    None => "no curve".to_owned(),
+                });
             }
             panels[place].curves.push(curve.points.iter().map(size).collect());
         }
     }
     let told = |(panel, ends): (&LogPanel<'_>, &Vec<String>)| match ends.as_slice() {
         [] => panel.title.to_owned(),
-        ends => format!("{}; curve ends at {}", panel.title, ends.join(", ")),
+        ends => format!("{}; {}", panel.title, ends.join(", ")),
     };
     let titles: Vec<String> = panels.iter().zip(&ends).map(told).collect();
     for (panel, title) in panels.iter_mut().zip(&titles) {

@@ -23,8 +23,12 @@ impl NonlinearComparison {
             };
             let fit = &found.fit;
             let flows = table.flows.iter().zip(&fit.residuals).map(|(set, residuals)| {
+                let curve = found.curve(*model, set);
+                let (none, stops): (Vec<_>, Vec<_>) =
+                    curve.in_words(set.flow()).into_iter().partition(|_| curve.points.is_empty());
                 json!({ "flow": words(set.flow()), "rows": residuals.len(), "rms_residual": rms(residuals),
-                        "largest_residual": largest(residuals), "no_curve": found.curve(*model, set).in_words(set.flow()) })
+                        "largest_residual": largest(residuals), "no_curve": none.first(),
+                        "curve_stops": stops.first() })
             });
             json!({
                 "fluid": model.name(),

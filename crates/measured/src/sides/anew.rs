@@ -1,8 +1,8 @@
 //! Intervals of foams and fibres by fitting anew.
 
-use piola_fit::Intervals;
-use piola_fit::internal::{Anew, Change};
+use piola_fit::internal::{Anew, Change, check_intervals, fit_sides_shifted};
 use piola_fit::sides::{SidesFit, SidesModel, SidesOptions, SidesResiduals, SidesTest, fit_sides};
+use piola_fit::{FitError, Intervals};
 
 /// A fit with intervals of this kind.
 pub(super) fn with_intervals(
@@ -11,7 +11,8 @@ pub(super) fn with_intervals(
     tests: &[SidesTest],
     options: &SidesOptions,
     intervals: Intervals,
-) -> SidesFit {
+) -> Result<SidesFit, FitError> {
+    check_intervals(intervals)?;
     let weighted: Vec<Vec<f64>> = fit.tests.iter().zip(tests).flat_map(|(found, test)| weighted(found, test)).collect();
     let bounds: Vec<[f64; 2]> = law
         .parameters()
@@ -21,7 +22,7 @@ pub(super) fn with_intervals(
             given.fold(own, |[low, high], (_, [a, b])| [low.max(*a), high.min(*b)])
         })
         .collect();
-    let anew = Anew {
+    let fitted = Anew {
         values: &fit.values(),
         bounds: &bounds,
         errors: &fit.parameters.iter().map(|parameter| parameter.standard_error).collect::<Vec<_>>(),
@@ -29,21 +30,22 @@ pub(super) fn with_intervals(
         degrees_of_freedom: fit.degrees_of_freedom,
         widening: fit.autocorrelation.map_or(1.0, |found| found.widening),
         confidence: options.confidence,
-    }
-    .intervals(intervals, &mut |change| {
+    };
+    let mut again = |change: Change<'_>| {
         let found = match change {
             Change::Held(k, value) => {
                 let held = options.clone().with_bounds(&fit.parameters[k].name, [value; 2]);
                 fit_sides(law, tests, &held).ok()?
             }
-            Change::Shifted(shift) => fit_sides(law, &shifted(tests, shift)?, options).ok()?,
+            Change::Shifted(shift) => fit_sides_shifted(law, tests, options, shift).ok()?,
         };
         Some((found.values(), found.weighted_squares))
-    });
+    };
+    let anew = fitted.intervals(intervals, &mut again, &|| false);
     for (parameter, interval) in fit.parameters.iter_mut().zip(anew.into_iter().flatten()) {
         parameter.interval = interval;
     }
-    fit
+    Ok(fit)
 }
 
 /// What residuals of stresses and of lateral stretches are divided by.
@@ -57,33 +59,4 @@ fn weighted(found: &SidesResiduals, test: &SidesTest) -> [Vec<f64>; 2] {
     let [stress, side] = scales(test);
     let over = |residuals: &[f64], scale: f64| residuals.iter().map(|x| x / scale).collect();
     [over(&found.stresses, stress), over(&found.laterals, side)]
-}
-
-/// Tests whose residuals are greater by these numbers over their scales: rows at rest have none.
-fn shifted(tests: &[SidesTest], shift: &[f64]) -> Option<Vec<SidesTest>> {
-    let mut rest = shift;
-    let mut changed = Vec::with_capacity(tests.len());
-    for test in tests {
-        let [stress, side] = scales(test);
-        let at_rest = if test.loading() == super::Loading::SimpleShear { 0.0 } else { 1.0 };
-        let is_told = |row: &&mut (f64, f64, Option<f64>)| 0.0 < (row.0 - at_rest).abs();
-        let mut rows = test.rows().to_vec();
-        for row in rows.iter_mut().filter(is_told) {
-            let (first, others) = rest.split_first()?;
-            row.1 -= first * stress;
-            rest = others;
-        }
-        for lateral in rows.iter_mut().filter(is_told).filter_map(|row| row.2.as_mut()) {
-            let (first, others) = rest.split_first()?;
-            *lateral -= first * side;
-            rest = others;
-        }
-        let again = if 0.0 < test.angle().abs() {
-            SidesTest::strip(test.name(), test.angle(), &rows)
-        } else {
-            SidesTest::new(test.name(), test.loading(), &rows)
-        };
-        changed.push(again.ok()?);
-    }
-    Some(changed)
 }

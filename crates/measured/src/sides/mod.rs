@@ -81,7 +81,7 @@ pub fn compare_sides_with(
 ) -> SidesComparison {
     let fitted = laws.iter().map(|law| {
         let fit = fit_sides(*law, &measurements.tests, options);
-        (*law, fit.map(|fit| anew::with_intervals(fit, *law, &measurements.tests, options, intervals)))
+        (*law, fit.and_then(|fit| anew::with_intervals(fit, *law, &measurements.tests, options, intervals)))
     });
     SidesComparison { laws: fitted.collect() }
 }

@@ -96,7 +96,7 @@ fn invalid_modes_are_refused_before_anything_is_fitted_and_results_say_how_they_
     assert_eq!(summary["minimised"], "sum of squares of ln(model/measured)");
     let fluid = &summary["fluids"][0];
     assert_eq!(
-        (&fluid["modes"]["given"][0]["time"], &fluid["flows"][0]["no_curve"]),
+        (&fluid["modes"]["given"][0]["time"], &fluid["flows"][0]["curve_stops"]),
         (&4.0.into(), &serde_json::Value::Null)
     );
     assert!(fluid["evaluations"].is_u64() && fluid["starts_that_agree"].is_u64(), "{fluid}");

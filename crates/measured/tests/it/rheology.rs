@@ -408,10 +408,15 @@ fn bands_of_the_other_made_tables_hold_the_fluid_too() -> Result<(), MeasuredErr
         recover_without_slip(&all(["slip-0.5mm.csv", "slip-1mm.csv", "slip-2mm.csv"], FlowKind::Pipe), &request)?;
     let names = ["capillary-10mm.csv", "capillary-20mm.csv", "capillary-40mm.csv"];
     let ends = recover_without_ends(&all(names, FlowKind::Capillary), &request)?;
+    let (mut rows, mut held) = (0, 0);
     for point in slip.curves[0].points.iter().chain(&ends.curves[0].points) {
         let [low, high] = point.band.expect("asked for");
-        assert!(made(low) <= point.at && point.at <= made(high) && high - low < point.value, "{point:?}");
+        assert!(high - low < point.value, "{point:?}");
+        rows += 1;
+        held += i32::from(made(low) <= point.at && point.at <= made(high));
     }
+    // Bands of tables that are corrected together hold each row with a probability of 95 %, not all rows at once.
+    assert!(9 * rows <= 10 * held, "{held} of {rows}");
     let Some(Correction::Slip(slip)) = slip.correction else { panic!("no slip") };
     for point in slip.points {
         let off = point.slip_velocity / (2e-5 * point.wall_stress.powf(1.5)) - 1.0;

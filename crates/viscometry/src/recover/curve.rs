@@ -3,10 +3,9 @@
 use nalgebra::DVector;
 
 use super::band::critical;
-use super::rule::{Below, ONE_POWER, Rule};
-use super::series::Order;
+use super::rule::{Below, ONE_POWER, Rule, assumed, coarse};
 use super::smoother::{Penalised, Smoother};
-use super::smoothing::{Criterion, Curve, EXACT, Fitted, Smoothing};
+use super::smoothing::{Criterion, Curve, EXACT, Fitted, Smoothing, thinned};
 use super::table::{FlowTable, Noise};
 use super::yielding::{Kink, yielding};
 use crate::ViscometryError;
@@ -96,8 +95,8 @@ pub(super) const SAFETY: f64 = 2.0;
 /// Rows left out one at a time, at most.
 pub(super) const LEFT_OUT: usize = 40;
 
-/// Bands of smoothed curves are wider by this factor: λ follows the rows too. Measured: without it the bands of Newtonian fluids and power laws
-/// hold some 91 % of the curves.
+/// Bands of smoothed curves are wider by this factor: λ follows the rows too. Chosen with the fluids and flows of the tables of coverage: without
+/// it the bands of Newtonian fluids and power laws hold some 91 % of the curves.
 const SELECTED: f64 = 1.12;
 
 /// A recovered curve: abscissas, the recovered quantity, and what bands follow from.
@@ -142,6 +141,26 @@ impl Recovered {
         scale: f64,
         options: Options,
     ) -> Result<Self, ViscometryError> {
+        Self::of(table, rule, scale, options, true)
+    }
+
+    /// Of normal stresses, of which no theory says that they rise from none at a yield stress.
+    pub(super) fn without_yield<G>(
+        table: &FlowTable<G>,
+        rule: Rule,
+        scale: f64,
+        options: Options,
+    ) -> Result<Self, ViscometryError> {
+        Self::of(table, rule, scale, options, false)
+    }
+
+    fn of<G>(
+        table: &FlowTable<G>,
+        rule: Rule,
+        scale: f64,
+        options: Options,
+        may_yield: bool,
+    ) -> Result<Self, ViscometryError> {
         table.check_rows()?;
         table.check_rising()?;
         let u: Vec<f64> = table.drive.iter().map(|x| x.ln()).collect();
@@ -168,7 +187,8 @@ impl Recovered {
             let make = |choice: &_, raised| {
                 let fit = smoother.fit(choice, raised).ok_or_else(singular)?;
                 let (main, smoothing) = (Curve::Smooth(fit.curve.clone()), fit.smoothing);
-                let rule = yielding(coarse(rule), &main, [u[0], u[u.len() - 1]]);
+                let rule = coarse(rule);
+                let rule = if may_yield { yielding(rule, &main, [u[0], u[u.len() - 1]]) } else { rule };
                 let rows = (u.clone(), y.clone(), scale);
                 Ok::<_, ViscometryError>(Self::assembled(rule, main, Vec::new(), Some(fit), smoothing, rows))
             };
@@ -286,9 +306,9 @@ impl Recovered {
         Ok(Monotonicity::Rising)
     }
 
-    /// Whether the value at u depends on responses below the smallest drive of a fluid that seems to yield by more than half of it.
+    /// Whether the value at u of a fluid that seems to yield depends on responses below the smallest drive by more than 39 % of it.
     fn is_unknown(&self, u: f64) -> bool {
-        /// The part of a value that may be unknown.
+        /// The most that ln value may be off, downwards: 1 − e^(−½) of the value.
         const UNKNOWN: f64 = 0.5;
         let terms = self.terms[self.interval(u)];
         let value = || self.rule.value(&self.main, u, terms);
@@ -297,10 +317,12 @@ impl Recovered {
 
     /// The abscissa from which on values are known of a fluid that seems to yield.
     fn known_from(&self) -> f64 {
-        match self.rule {
-            Rule::Series { step, .. } => self.abscissa(self.u[0] + step),
-            _ => self.abscissa(self.u[0]),
-        }
+        let known = self.fine().find(|u| !self.is_unknown(*u));
+        self.abscissa(known.unwrap_or_else(|| match self.rule {
+            // Beyond the table, where it is enough that the smallest drive is a step below.
+            Rule::Series { step, .. } => self.u[0] + step,
+            _ => self.u[0],
+        }))
     }
 
     fn assumption(&self, given: Option<BelowSmallest>) -> BelowSmallest {
@@ -372,9 +394,14 @@ impl Recovered {
         /// The part of the range below which no kink is resolved.
         const PART: f64 = 1.0 / 40.0;
         let Rule::Series { step, below: Below::Yield { lowest }, .. } = self.rule else { return None };
-        let at = lowest + step;
-        let above = self.u.partition_point(|u| *u <= at);
-        let spacing = self.u.get(above)? - self.u[above - 1];
+        // ΔΩ begins at the yield torque as a power of the excess, of Bingham's fluid the second.
+        let slope = self.main.at(lowest)[1];
+        let at = [(lowest + step + (-2.0 / slope).ln_1p()).max(lowest), lowest + step];
+        let spacing = |at: f64| {
+            let above = self.u.partition_point(|u| *u <= at);
+            Some(self.u.get(above)? - self.u[above - 1])
+        };
+        let spacing = spacing(at[0])?.max(spacing(at[1]).unwrap_or(0.0));
         let width = spacing.max(PART * (self.u[self.u.len() - 1] - lowest));
         let rate = |u: f64| self.logarithm(u).map(f64::exp);
         // Beside the yield stress: a rate that begins as a higher power than the first does not bend the curve.
@@ -460,35 +487,3 @@ impl Recovered {
 
 /// Half the width of ln beyond which a band has no ends that are numbers.
 const WIDEST: f64 = 300.0;
-
-/// Intervals between rows of a table with more rows.
-const MANY: usize = 512;
-
-/// The rows, or of many some, the first and the last among them.
-fn thinned(u: &[f64]) -> Vec<f64> {
-    if u.len() <= MANY {
-        return u.to_vec();
-    }
-    (0..MANY).map(|k| u[k * (u.len() - 1) / (MANY - 1)]).collect()
-}
-
-/// Noise leaves no more than the variance of the exponents.
-const fn coarse(rule: Rule) -> Rule {
-    match rule {
-        Rule::Series { step, order: Order::Full, below } => Rule::Series { step, order: Order::Variance, below },
-        other => other,
-    }
-}
-
-/// The rule under an assumption that is given.
-const fn assumed(rule: Rule, below: Option<BelowSmallest>) -> Rule {
-    match (rule, below) {
-        (Rule::Series { step, .. }, Some(BelowSmallest::Newtonian)) => {
-            Rule::Series { step, order: Order::Power, below: Below::Exponent(1.0) }
-        }
-        (Rule::Series { step, .. }, Some(BelowSmallest::PowerLaw { exponent })) => {
-            Rule::Series { step, order: Order::Power, below: Below::Exponent(exponent) }
-        }
-        _ => rule,
-    }
-}

@@ -354,8 +354,9 @@ pub fn normal_stress_with(
     options: Options,
 ) -> Result<NormalStressCurve, ViscometryError> {
     let rule = Rule::Series { step: table.geometry.step(), order: Order::Full, below: Below::Powers };
-    let recovered = Recovered::new(table, rule, table.geometry.stress_per_torque(), options)?;
-    Ok(NormalStressCurve { recovered })
+    Ok(NormalStressCurve {
+        recovered: Recovered::without_yield(table, rule, table.geometry.stress_per_torque(), options)?,
+    })
 }
 
 /// The shear stress over the shear rate at the rim of parallel plates, from a table of torques.

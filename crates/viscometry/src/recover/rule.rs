@@ -6,6 +6,7 @@
 //! series     Σ 2 e^y y′ at u − nδ, n < N, and the rest 2 e^y F(…) at u − Nδ
 //! ```
 
+use super::curve::BelowSmallest;
 use super::series::{self, Order};
 use super::smoothing::Curve;
 use super::splines::Derivatives;
@@ -39,16 +40,17 @@ pub(super) const ONE_POWER: f64 = 1e-9;
 /// Gaps with a smaller δ need none.
 const NARROW: f64 = 0.02;
 
-/// The largest ½ ζ(v) at v below the lowest row of a fluid that yields, over e^`logarithm`: ζ rises with v and is positive, so that it
-/// lies below its mean from v to the lowest row, and below its value there.
+/// The largest ½ ζ(v) at v below the lowest row of a fluid that yields, over e^`logarithm`, and its derivative with respect to y′(u₀): ζ
+/// rises with v and is positive, so that it lies below its mean from v to the lowest row, and below its value there.
 ///
 /// ```text
 /// ½ ζ(v) ≤ W/(u₀ − v)      ½ ζ(v) ≤ ½ ζ(u₀) ≤ W′ + W/δ      W, W′ at u₀
 /// ```
-fn rest_of_yield(curve: &Curve, v: f64, lowest: f64, step: f64, logarithm: f64) -> f64 {
+fn rest_of_yield(curve: &Curve, v: f64, lowest: f64, step: f64, logarithm: f64) -> [f64; 2] {
     let [y, slope, ..] = curve.at(lowest);
     let mean = (lowest - v).max(f64::MIN_POSITIVE).recip();
-    (y - logarithm).exp() * mean.min(slope + step.recip())
+    let (size, value) = ((y - logarithm).exp(), slope + step.recip());
+    if mean < value { [size * mean, 0.0] } else { [size * value, size] }
 }
 
 impl Rule {
@@ -92,7 +94,7 @@ impl Rule {
                     sum += (y - reference).exp() * slope;
                     at -= step;
                 }
-                let unknown = 0.5 * rest_of_yield(curve, at, lowest, step, reference);
+                let unknown = 0.5 * rest_of_yield(curve, at, lowest, step, reference)[0];
                 sum += unknown;
                 (0.0 < sum).then(|| [reference + (2.0 * sum).ln(), -(-unknown / sum).ln_1p()])
             }
@@ -134,8 +136,8 @@ impl Rule {
                         term(at);
                         at -= step;
                     }
-                    let rest = rest_of_yield(curve, at, lowest, step, logarithm);
-                    curve.accumulate(row, [rest, 0.0, 0.0, 0.0, 0.0], lowest);
+                    let [rest, by_slope] = rest_of_yield(curve, at, lowest, step, logarithm);
+                    curve.accumulate(row, [rest, by_slope, 0.0, 0.0, 0.0], lowest);
                     return;
                 }
                 (0..terms).for_each(|n| term(u - n as f64 * step));
@@ -163,5 +165,26 @@ fn assume(derivatives: &mut Derivatives, step: f64, order: Order, below: Below) 
         Order::Variance
     } else {
         order
+    }
+}
+
+/// Noise leaves no more than the variance of the exponents.
+pub(super) const fn coarse(rule: Rule) -> Rule {
+    match rule {
+        Rule::Series { step, order: Order::Full, below } => Rule::Series { step, order: Order::Variance, below },
+        other => other,
+    }
+}
+
+/// The rule under an assumption that is given.
+pub(super) const fn assumed(rule: Rule, below: Option<BelowSmallest>) -> Rule {
+    match (rule, below) {
+        (Rule::Series { step, .. }, Some(BelowSmallest::Newtonian)) => {
+            Rule::Series { step, order: Order::Power, below: Below::Exponent(1.0) }
+        }
+        (Rule::Series { step, .. }, Some(BelowSmallest::PowerLaw { exponent })) => {
+            Rule::Series { step, order: Order::Power, below: Below::Exponent(exponent) }
+        }
+        _ => rule,
     }
 }

@@ -5,7 +5,7 @@
 //! λ, m: least  n RSS/(n − 1.4 ν)²,  ν = tr S       or, with a known σ, least  RSS + 2 σ² ν
 //! ```
 //! S is the linearised smoother. Smoothing pulls the curve towards a power law. A second fit, whose penalty is on the change from the
-//! first, makes this bias good to its second order: (I − S)² y in place of (I − S) y. The covariance is that of this second curve, σ² S₂ S₂ᵀ with
+//! first, corrects this bias to its second order: (I − S)² y in place of (I − S) y. The covariance is that of this second curve, σ² S₂ S₂ᵀ with
 //! S₂ = 2 S − S², so that bands are as wide as the curve scatters (S. Calonico, M. D. Cattaneo, M. H. Farrell, 2018). 1.4 makes
 //! generalised cross-validation undersmooth less often (Y.-J. Kim, C. Gu, 2004).
 
@@ -17,8 +17,8 @@ use super::splines::Splines;
 
 /// Splines of θ, at least and at most.
 const SPLINES: [usize; 2] = [4, 28];
-/// Rows that are smoothed one by one; more are gathered in groups.
-const ROWS: usize = 512;
+/// Rows that are smoothed one by one; of more, neighbours are gathered in groups within this part of the range of ln drive.
+const ROWS: usize = 2048;
 /// λ in steps from least to most, over what makes penalty and data alike.
 const LADDER: core::ops::RangeInclusive<i32> = -40..=40;
 /// Steps of the ladder for a factor of e.
@@ -79,6 +79,25 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
+/// The sizes of the groups of rows. Near a yield stress ln response bends within few rows of a table that is even in the drive: the mean over
+/// equal parts of ln drive does not smooth the bend away.
+fn groups(u: &[f64]) -> Vec<usize> {
+    if u.len() <= ROWS {
+        return vec![1; u.len()];
+    }
+    let (width, most) = ((u[u.len() - 1] - u[0]) / ROWS as f64, u.len().div_ceil(ROWS / 4));
+    let mut sizes = Vec::new();
+    let mut first = 0;
+    for (row, x) in u.iter().enumerate().skip(1) {
+        if width <= x - u[first] || most <= row - first {
+            sizes.push(row - first);
+            first = row;
+        }
+    }
+    sizes.push(u.len() - first);
+    sizes
+}
+
 /// A Cholesky factor of a matrix, made a little more definite if it has none.
 fn factor(mut matrix: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     let diagonal = matrix.diagonal();
@@ -96,13 +115,19 @@ fn factor(mut matrix: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
 }
 
 impl Smoother {
-    /// Of ln drive and ln response with a noise of `level`, which is known or estimated. `None` where no curve follows.
+    /// Of ln drive, rising, and ln response with a noise of `level`, which is known or estimated. `None` where no curve follows.
     pub(super) fn new(u: &[f64], y: &[f64], level: f64, is_known: bool) -> Option<Self> {
-        let size = u.len().div_ceil(ROWS);
-        let grouped = |values: &[f64]| values.chunks(size).map(mean).collect::<Vec<f64>>();
-        let (groups, weights) =
-            ([grouped(u), grouped(y)], u.chunks(size).map(|rows| (rows.len() as f64).sqrt()).collect());
-        let [groups_u, groups_y] = groups;
+        let sizes = groups(u);
+        let grouped = |values: &[f64]| -> Vec<f64> {
+            let mut from = 0;
+            let group = |size: &usize| {
+                from += size;
+                mean(&values[from - size..from])
+            };
+            sizes.iter().map(group).collect()
+        };
+        let [groups_u, groups_y] = [grouped(u), grouped(y)];
+        let weights = sizes.iter().map(|size| (*size as f64).sqrt()).collect();
         let within = level * level * (u.len() - groups_u.len()) as f64;
         let t: Vec<f64> = groups_u.iter().zip(&groups_y).map(|(u, y)| 0.5 * (u + y)).collect();
         let (low, high) =
@@ -347,7 +372,7 @@ impl Smoother {
         })
     }
 
-    /// The fit at a choice, its bias made good.
+    /// The fit at a choice, its bias corrected.
     pub(super) fn fit(&self, choice: &Choice, raised: bool) -> Option<Penalised> {
         let penalty = self.penalty(choice.order);
         let parameter = self.parameter(choice.rung, &penalty);

@@ -98,6 +98,17 @@ pub(super) fn noise(u: &[f64], values: &[f64]) -> f64 {
     (3..=(u.len() / 2).clamp(3, 10)).map(of_order).fold(f64::INFINITY, f64::min)
 }
 
+/// Intervals between rows of a table with more rows.
+const MANY: usize = 512;
+
+/// The rows, or of many some, the first and the last among them.
+pub(super) fn thinned(u: &[f64]) -> Vec<f64> {
+    if u.len() <= MANY {
+        return u.to_vec();
+    }
+    (0..MANY).map(|k| u[k * (u.len() - 1) / (MANY - 1)]).collect()
+}
+
 /// A curve through exact rows, or close to noisy ones.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Curve {

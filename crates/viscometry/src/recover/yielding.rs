@@ -9,8 +9,8 @@ const MISSED: f64 = 0.15;
 /// The bend of ΔΩ over the torque where a fluid that yields begins to flow at the outer cylinder, which no smooth curve follows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kink {
-    /// ln torque there.
-    pub(super) at: f64,
+    /// ln torque there, at least and at most: a step above the yield torque, which lies below the smallest one.
+    pub(super) at: [f64; 2],
     /// The distance of the rows there.
     pub(super) width: f64,
     /// dζ/d ln M at the smallest torque, by which 2 d²ΔΩ/(d ln M)² is less from there on.
@@ -20,7 +20,7 @@ pub(super) struct Kink {
 impl Kink {
     /// How far ln ζ may be off within a width of the bend.
     pub(super) fn doubt(self, u: f64, logarithm: Option<f64>) -> f64 {
-        let near = (1.0 - (u - self.at).abs() / self.width).max(0.0);
+        let near = (1.0 - (u - u.clamp(self.at[0], self.at[1])).abs() / self.width).max(0.0);
         logarithm.map_or(0.0, |logarithm| MISSED * near * self.width * self.rise.max(0.0) * (-logarithm).exp())
     }
 }

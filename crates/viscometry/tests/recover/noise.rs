@@ -113,3 +113,48 @@ fn a_long_noisy_table_of_coaxial_cylinders_is_recovered_in_a_narrow_gap() {
     let rate = curve.at(stress).expect("measured").shear_rate;
     assert!((rate / stress - 1.0).abs() < 1e-3, "{rate} {stress}");
 }
+
+/// Near the yield stress ln discharge bends within few rows of a long table that is even in the drive.
+#[test]
+fn long_tables_that_begin_near_a_yield_stress_keep_the_rows_there() {
+    use core::f64::consts::PI;
+    // k = τ − 1 in a pipe of radius 1: Q = (π/T³) ∫ τ² k dτ at the wall stress T.
+    let discharge = |t: f64| PI / (t * t * t) * ((t.powi(4) - 1.0) / 4.0 - (t.powi(3) - 1.0) / 3.0);
+    let mut normal = NormalNoise(21);
+    for (rows, most) in [(5000_u32, 20.0), (10_000, 20.0)] {
+        let stresses = (0..rows).map(|i| 1.01 + (most - 1.01) * f64::from(i) / f64::from(rows - 1));
+        let table: Vec<_> = stresses.map(|t| [2.0 * t, discharge(t) * (1.0 + 0.007 * normal.draw())]).collect();
+        let curve = pipe_with(&FlowTable::pipe(1.0, &table).expect("a table"), Options::default()).expect("a curve");
+        let curve = curve.with_band(0.95).expect("a band");
+        for t in [1.01, 1.02, 1.05, 1.2, 2.0, 10.0] {
+            let point = curve.at(t).expect("measured");
+            let [low, high] = point.band.expect("asked for");
+            assert!(low <= t - 1.0 && t - 1.0 <= high, "{rows} {t}: {point:?}");
+            assert!(high < 1.1 * low, "{rows} {t}: {point:?}");
+        }
+    }
+}
+
+/// Bingham's fluid begins to flow at the outer cylinder at four times the yield torque, not at four times the smallest torque.
+#[test]
+fn bands_of_coaxial_cylinders_hold_the_truth_of_tables_that_begin_beyond_the_yield_torque() {
+    let speed = |t: f64| {
+        let least = (0.25 * t).max(1.0);
+        0.5 * (t - least - (t / least).ln())
+    };
+    let mut normal = NormalNoise(5);
+    let mut held = 0;
+    for _ in 0..40 {
+        let stresses: Vec<f64> = (0..40).map(|i| 1.3 * (0.07 * f64::from(i)).exp()).collect();
+        let noisy = |t: &f64| [core::f64::consts::TAU * t, speed(*t) * (1.0 + 0.01 * normal.draw())];
+        let rows: Vec<_> = stresses.iter().map(noisy).collect();
+        let curve = couette(&FlowTable::couette(1.0, 2.0, &rows).expect("a table")).expect("a curve");
+        let curve = curve.with_band(0.95).expect("a band");
+        let is_held = |t: &f64| {
+            let [low, high] = curve.at(*t).expect("measured").band.expect("asked for");
+            low <= t - 1.0 && t - 1.0 <= high
+        };
+        held += u32::from(stresses.iter().all(is_held));
+    }
+    assert!(36 <= held, "{held}");
+}

@@ -143,12 +143,12 @@ fn tests_that_contradict_each_other_are_told_and_left_out_ones_predicted() {
     let sheet = Test::new("sheet", Table::Planar(sheet), Measure::FirstPiola).expect("a test");
     let (data, options) = (of(vec![bar(points()), sheet]), Options::default());
     let joint = fit(&AnyModel::NeoHookean, &data, &options).expect("a fit");
-    let both = alone(&AnyModel::NeoHookean, &data, &options, &joint);
+    let both = alone(&AnyModel::NeoHookean, &data, &options, &joint, &|| false);
     let [found] = contradictions(&both).try_into().expect("one");
     let piola_fit::solids::Contradiction { tests, values, .. } = found;
     assert_eq!(tests, ["bar", "sheet"]);
     assert!((values[0] - 1.0).abs() < 0.02 && (values[1] - 2.0).abs() < 0.04, "{values:?}");
-    let predicted = held_out(&AnyModel::NeoHookean, &data, &options).expect("two fits");
+    let predicted = held_out(&AnyModel::NeoHookean, &data, &options, &|| false).expect("two fits");
     // The sheet is predicted at half its stresses, the bar at twice.
     assert!(
         (predicted[0].residuals.relative_largest - 1.0).abs() < 0.05,
@@ -156,7 +156,9 @@ fn tests_that_contradict_each_other_are_told_and_left_out_ones_predicted() {
         predicted[0].residuals.relative_largest
     );
     assert!((predicted[1].residuals.relative_largest - 0.5).abs() < 0.05);
-    assert!(alone(&AnyModel::NeoHookean, &of(vec![bar(points())]), &options, &joint).is_empty());
+    assert!(alone(&AnyModel::NeoHookean, &of(vec![bar(points())]), &options, &joint, &|| false).is_empty());
+    assert!(alone(&AnyModel::NeoHookean, &data, &options, &joint, &|| true).is_empty());
+    assert!(held_out(&AnyModel::NeoHookean, &data, &options, &|| true).expect("no fit").is_empty());
 }
 
 /// The law that is contained is the best of either where the data cannot tell them apart.
