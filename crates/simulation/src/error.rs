@@ -149,6 +149,25 @@ pub enum SimulationError {
         "bodies that roll stand beside constraints of other kinds; all constraints of a mechanism roll, or none does"
     )]
     RollingWithOthers,
+    /// A rate at the start that the rates which are free contradict.
+    #[error(
+        "the rate of `{coordinate}` is {given} at the start, but rolling without slip makes it {follows}: it follows \
+         from the rates of the other coordinates"
+    )]
+    RateAgainstRolling {
+        /// The name of the coordinate.
+        coordinate: String,
+        /// The rate given.
+        given: f64,
+        /// The rate that follows from the free ones.
+        follows: f64,
+    },
+    /// A disc that lies flat on its plane at the start.
+    #[error("the disc of `{constraint}` lies flat at the start: its axis is along the normal of the plane")]
+    DiscFlat {
+        /// The name of the constraint.
+        constraint: String,
+    },
     /// A method that constraints do not allow.
     #[error("the method {method} does not keep constraints: an adaptive one does, as dormand-prince-853")]
     ConstraintsNeedProjection {
