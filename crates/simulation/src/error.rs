@@ -133,7 +133,7 @@ pub enum SimulationError {
     },
     /// A closed form of a system that has none here.
     #[error(
-        "the closed form is there for bodies on ellipses about a fixed centre, and for a symmetric top on one spherical joint whose centre of mass is on the third axis of the joint, under gravity along z alone"
+        "the closed form is there for bodies on ellipses about a fixed centre, and for a symmetric top on one spherical joint with 0 < θ < π at the start, whose centre of mass is on the third axis of the joint, under gravity along −z alone: no force, no constraint"
     )]
     NoClosedForm,
     /// A direction that is no unit vector.
