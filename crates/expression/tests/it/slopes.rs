@@ -75,7 +75,10 @@ fn derivatives_in_one_pass_equal_those_of_one_variable_at_a_time() {
         let expression = expression(tree(&code, &ALL));
         let (value, found) = slopes(&expression, &point);
         let expected = expression.evaluate(&reader(&point));
-        prop_assert!(value.to_bits() == expected.to_bits() || (value.is_nan() && expected.is_nan()), "{value} {expected}");
+        prop_assert!(
+            value.to_bits() == expected.to_bits() || (value.is_nan() && expected.is_nan()),
+            "{value} {expected}"
+        );
         for (variable, found) in ALL.into_iter().zip(found) {
             let expected = expression.partial(variable, &reader(&point)).tangent;
             // Beyond these, terms of different sizes cancel or are no numbers.
@@ -96,10 +99,16 @@ fn what_a_minimum_does_not_take_has_no_part_in_the_derivatives() {
     let q = Node::Variable(Q[0]);
     let at_zero = |nodes: Vec<Node>| slopes(&expression(nodes), &[0.0; 5]);
     // min(1/|q|, 100) and max(ln q, −5) at q = 0: the other branch has an infinite derivative.
-    let reciprocal =
-        vec![q, Node::Function(Function::Abs, 0), Node::WholePower(1, -1), Node::Constant(100.0), Node::Operation(Operation::Min, 2, 3)];
+    let reciprocal = vec![
+        q,
+        Node::Function(Function::Abs, 0),
+        Node::WholePower(1, -1),
+        Node::Constant(100.0),
+        Node::Operation(Operation::Min, 2, 3),
+    ];
     assert_eq!(at_zero(reciprocal), (100.0, [0.0; 5]));
-    let logarithm = vec![q, Node::Function(Function::Ln, 0), Node::Constant(-5.0), Node::Operation(Operation::Max, 1, 2)];
+    let logarithm =
+        vec![q, Node::Function(Function::Ln, 0), Node::Constant(-5.0), Node::Operation(Operation::Max, 1, 2)];
     assert_eq!(at_zero(logarithm), (-5.0, [0.0; 5]));
 }
 

@@ -38,7 +38,11 @@ pub(super) fn run(
         let (before, steps) = (done.len() as f64, report.steps);
         let mut progress = |one: Progress| {
             if let Some(until) = until {
-                return if span.order(one.time, until).is_lt() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
+                return if span.order(one.time, until).is_lt() {
+                    ControlFlow::Continue(())
+                } else {
+                    ControlFlow::Break(())
+                };
             }
             let fraction = (before + one.fraction) / islands.len() as f64;
             observer(Progress { time: one.time, fraction, steps: steps + one.steps })

@@ -148,7 +148,10 @@ impl RobotStudy {
         let tolerance = Tolerance::new(self.tolerance, self.tolerance).map_err(in_words)?;
         let mut work = self.closed.tree().workspace();
         match from {
-            Some(RobotCheckpoint { body: RobotCheckpointBody { state: kept, samples, cost, singular_positions }, .. }) => {
+            Some(RobotCheckpoint {
+                body: RobotCheckpointBody { state: kept, samples, cost, singular_positions },
+                ..
+            }) => {
                 (state, found.samples, found.cost) = (kept, samples, cost);
                 found.singular_positions = singular_positions;
             }
