@@ -10,20 +10,21 @@ pub(super) fn corpus(folder: &Path) -> Vec<Vec<u8>> {
     paths.into_iter().filter_map(|path| std::fs::read(path).ok()).collect()
 }
 
-/// Runs a body over a corpus and over `count` texts made from it. Returns how many it has run.
-pub(super) fn over(corpus: &[Vec<u8>], count: usize, tokens: &[&str], body: impl Fn(&[u8])) -> usize {
+/// Runs a body over a corpus and over `count` texts made from it. Returns how many of these the body has accepted.
+pub(super) fn over(corpus: &[Vec<u8>], count: usize, tokens: &[&str], body: impl Fn(&[u8]) -> bool) -> usize {
     for text in corpus {
         body(text);
     }
+    let mut accepted = 0;
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
     for _ in 0..count {
         let mut text = corpus[random.below(corpus.len())].clone();
         for _ in 0..=random.below(4) {
             random.change(&mut text, corpus, tokens);
         }
-        body(&text);
+        accepted += usize::from(body(&text));
     }
-    corpus.len() + count
+    accepted
 }
 
 /// Steele, Lea and Flood's generator of 2014.

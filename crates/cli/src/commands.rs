@@ -46,24 +46,24 @@ fn run_study(study: &Study, arguments: &RunArguments) -> Exit {
         Err(error) => return invalid(&error, arguments.scene.json),
     };
     let plan = StudyPlan::of(study);
-    let interrupt = Interrupt::listen();
-    let mut progress = ProgressLine::new(&plan.name, 1);
     let mut checkpoints = Checkpoints::new(&folder, Duration::from_secs_f64(arguments.checkpoint.unwrap_or(PAUSE)));
-    if !arguments.resume {
+    if arguments.resume {
+        match studies::checkpoint_time(study, &checkpoints) {
+            Ok(from) => note(&went_on(from)),
+            Err(error) => return invalid(&error, arguments.scene.json),
+        }
+    } else {
         checkpoints.remove();
     }
+    let interrupt = Interrupt::listen();
+    let mut progress = ProgressLine::new(&plan.name, 1);
     let run = studies::run_with_checkpoints(study, arguments.resume, &mut checkpoints, |fraction| {
         progress.update(fraction);
         if interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     progress.finish();
     let run = match run {
-        Ok((run, from)) => {
-            if arguments.resume {
-                note(&went_on(from));
-            }
-            run
-        }
+        Ok((run, _)) => run,
         Err(error) => return invalid(&error, arguments.scene.json),
     };
     let mut written = run.write(&folder, study, &plan);

@@ -13,6 +13,15 @@ use piola_numerics::{Dual, Gradient, Real};
 use crate::nodes::{apply, combine};
 use crate::{Expression, ExpressionNode as Node, Operation, Variable};
 
+const fn is_selection(node: &Node) -> bool {
+    matches!(node, Node::Operation(Operation::Min | Operation::Max, _, _))
+}
+
+/// Whether a number is zero in all lanes.
+fn is_zero<T: Real>(number: T) -> bool {
+    (0..T::LANES).all(|lane| number.primal(lane).abs() <= 0.0)
+}
+
 /// An expression with room for the values and slopes of its nodes.
 ///
 /// What depends on no variable is evaluated once, when it is made. [`differentiate`](Self::differentiate) allocates nothing.
@@ -50,6 +59,10 @@ pub struct ExpressionSlopes<T = f64> {
     adjoints: Vec<T>,
     /// Whether a node depends on a variable.
     moves: Vec<bool>,
+    /// Whether there is a minimum or a maximum.
+    selects: bool,
+    /// Whether a node belongs to what a minimum or maximum does not take: there a derivative may be infinite.
+    passed_over: Vec<bool>,
 }
 
 impl<T: Real> ExpressionSlopes<T> {
@@ -65,6 +78,8 @@ impl<T: Real> ExpressionSlopes<T> {
             slopes: vec![[T::zero(); 2]; count],
             adjoints: vec![T::zero(); count],
             moves: vec![true; count],
+            selects: expression.nodes().iter().any(is_selection),
+            passed_over: vec![false; count],
         };
         // The nodes without a variable stand still with their values.
         for node in 0..count {
@@ -82,7 +97,8 @@ impl<T: Real> ExpressionSlopes<T> {
     /// The value, where `read` gives the variables. Each occurrence of a variable is given to `add` with its derivative: their sum
     /// is the partial derivative by that variable.
     ///
-    /// Outside of the domain of a function values and derivatives are not numbers.
+    /// Outside of the domain of a function values and derivatives are not numbers. What a minimum or maximum does not take, in any
+    /// lane, has no part in the derivatives.
     #[inline]
     pub fn differentiate(&mut self, read: impl Fn(Variable) -> T, mut add: impl FnMut(Variable, T)) -> T {
         for i in 0..self.moving.len() {
@@ -92,6 +108,16 @@ impl<T: Real> ExpressionSlopes<T> {
         let last = self.nodes.len() - 1;
         self.adjoints[last] = T::one();
         for &node in self.moving.iter().rev() {
+            if self.selects {
+                let over = self.passed_over[node];
+                for (k, operand) in self.nodes[node].operands().into_iter().flatten().enumerate() {
+                    let is_taken = !is_selection(&self.nodes[node]) || !is_zero(self.slopes[node][k]);
+                    self.passed_over[operand] = over || !is_taken;
+                }
+                if over {
+                    continue;
+                }
+            }
             let adjoint = self.adjoints[node];
             match self.nodes[node] {
                 Node::Constant(_) => {}

@@ -407,7 +407,7 @@ fn main() {
             let tolerance = tolerance.map_or_else(|| "none".to_string(), |t| format!("{t:.0e}"));
             let (shown, (general, evaluations)) = match at_error(&curve, error.max(floor)) {
                 Ok(found) => (if error < floor { format!("< {floor:.0e}") } else { format!("{error:.0e}") }, found),
-                Err((least, time, count)) => (format!("rounding; general {least:.0e}"), (time, count)),
+                Err((least, time, count)) => (format!("not measured; general {least:.0e}"), (time, count)),
             };
             println!(
                 "| {name} | {tolerance} | {} | {shown} | {evaluations:.0}, {count} | {general:.2}, {time:.2} | {:.1} |",

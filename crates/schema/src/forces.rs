@@ -105,7 +105,7 @@ static CONSTRAINT_TYPES: [Word; 4] = [
     word("loop", "two points are one: a joint that closes a loop"),
     word(
         "rolling",
-        "a sphere, or with `axis` a thin disc, rolls without slip on the plane on which it stands at the start; stands beside no other type",
+        "a sphere, or with `axis` a thin disc, rolls without slip on the plane on which it stands at the start; rates of lengths follow from those of angles, as the velocity of the centre from the turn; stands beside no other type",
     ),
     word("prescribed", "a coordinate moves as an expression of the time says; its drive does work"),
 ];
@@ -113,7 +113,8 @@ static CONSTRAINT_TYPES: [Word; 4] = [
 const TIES: &[&str] = &["distance", "loop"];
 
 table! {
-    /// A constraint on a `[mechanism]` besides its joints. The motion starts at the nearest state that satisfies all constraints.
+    /// A constraint on a `[mechanism]` besides its joints. The motion starts at the nearest state that satisfies all constraints, but
+    /// for `rolling`: there the rates that are not free follow from the others, and one that is given otherwise is refused.
     /// Constraints that depend on others, as the third direction of a plane loop, do no harm.
     /// Their forces in `constraints.csv` are then not unique: the least are written. A singular position that the motion goes
     /// through, as a parallelogram on one line, stands in `summary.json`; such a run needs `integrator.tolerance = 1e-10`.
@@ -136,7 +137,7 @@ table! {
         body: Name, Required, only_for &["rolling"];
         /// The centre in its frame.
         centre_at: Kind::Numbers(D::LENGTH, &[3]), Default("[0.0, 0.0, 0.0]"), only_for &["rolling"];
-        /// The radius. Rates of lengths follow from those of angles, as the velocity of the centre from the turn.
+        /// The radius.
         radius: quantity(D::LENGTH, Positive), Required, only_for &["rolling"];
         /// The axis of a disc in the frame of `body`, of any length; a sphere has none.
         axis: Kind::Numbers(D::NONE, &[3]), Optional, only_for &["rolling"];

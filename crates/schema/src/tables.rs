@@ -296,7 +296,7 @@ pub static METHODS: [Word; 14] = [
     word("nystrom-1210", "the same of order 12(10)"),
     word(
         "closed-form",
-        "Kepler's motion or that of Lagrange's top at every instant, without steps: for ellipses of `[central]`, or one body of a `[mechanism]` on a spherical joint, symmetric about its third axis with the centre of mass on it, under gravity along −z alone",
+        "Kepler's motion or that of Lagrange's top at every instant, without steps: for ellipses of `[central]`, or one body of a `[mechanism]` on a spherical joint, symmetric about its third axis with the centre of mass on it, the second angle between 0 and π at the start, under gravity along −z alone, without `[[force]]` and `[[constraint]]`",
     ),
 ];
 
@@ -307,8 +307,9 @@ table! {
         method: Kind::Choice(&METHODS), Default("\"auto\"");
         /// Step of a method of fixed step; chosen by the planner when absent.
         step: quantity(D::TIME, Positive), Optional;
-        /// Relative tolerance of a step of an adaptive method, at least 4.5e-16. When absent one at which the errors
-        /// of the method are about those of rounding, and 1e-12 for bodies that attract each other where none dominates. The plan shows it.
+        /// Relative tolerance of a step of an adaptive method, at least 4.5e-16. When absent, 1e-12 for a `method` that is named, and for
+        /// bodies that attract each other where none dominates; else one at which the errors of the method are about those of rounding.
+        /// The plan shows it.
         tolerance: quantity(D::NONE, Fraction), Optional;
         /// Whether steps see of a `[mechanism]` only what moves: adaptive methods integrate independent parts by themselves, each with
         /// steps of its own; parts that stand still are left out, and fixed joints are merged with those that carry them.

@@ -133,7 +133,7 @@ pub enum SimulationError {
     },
     /// A closed form of a system that has none here.
     #[error(
-        "the closed form is there for bodies on ellipses about a fixed centre, and for a symmetric top on one spherical joint whose centre of mass is on the third axis of the joint, under gravity along z alone"
+        "the closed form is there for bodies on ellipses about a fixed centre, and for a symmetric top on one spherical joint with 0 < θ < π at the start, whose centre of mass is on the third axis of the joint, under gravity along −z alone: no force, no constraint"
     )]
     NoClosedForm,
     /// A direction that is no unit vector.
@@ -149,6 +149,25 @@ pub enum SimulationError {
         "the mechanism has constraints of type rolling and of other types; either all of its constraints are of type rolling, or none is"
     )]
     RollingWithOthers,
+    /// A rate at the start that the rates which are free contradict.
+    #[error(
+        "the rate of `{coordinate}` is {given} at the start, but rolling without slip makes it {follows}: it follows \
+         from the rates of the other coordinates"
+    )]
+    RateAgainstRolling {
+        /// The name of the coordinate.
+        coordinate: String,
+        /// The rate given.
+        given: f64,
+        /// The rate that follows from the free ones.
+        follows: f64,
+    },
+    /// A disc that lies flat on its plane at the start.
+    #[error("the disc of `{constraint}` lies flat at the start: its axis is along the normal of the plane")]
+    DiscFlat {
+        /// The name of the constraint.
+        constraint: String,
+    },
     /// A method that constraints do not allow.
     #[error("the method {method} does not keep constraints: an adaptive one does, as dormand-prince-853")]
     ConstraintsNeedProjection {

@@ -14,5 +14,6 @@ fn a_mutated_table_is_refused_in_words_or_read() {
     let corpus: Vec<_> = mutation::corpus(&root.join("fuzz/corpus/csv")).into_iter().chain(layouts).collect();
     let tokens =
         [",", ";", "\t", "\n", "\"", "# radius: 1 mm\n", "sep=;\n", "1,5", "[Pa]", "\u{feff}", "stretch", "stress"];
-    assert!(3000 < mutation::over(&corpus, 3000, &tokens, csv::run));
+    let (accepted, least) = (mutation::over(&corpus, 3000, &tokens, csv::run), 20);
+    assert!(least <= accepted, "{accepted} accepted");
 }

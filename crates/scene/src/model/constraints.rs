@@ -116,7 +116,7 @@ impl Builder<'_> {
             self.refuse(
                 integrator.place_of("method"),
                 "the mechanism has no closed form",
-                "one body on a spherical joint, symmetric about the third axis of the joint, with its centre of mass on it, under gravity along -z alone; or another method",
+                "one body on a spherical joint, symmetric about the third axis of the joint, with its centre of mass on it, the second angle between 0 and pi at the start, under gravity along -z alone, without [[force]] and [[constraint]]; or another method",
             );
         }
     }

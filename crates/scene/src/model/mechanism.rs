@@ -46,8 +46,22 @@ impl Builder<'_> {
         let questions = self.mechanism_questions(scene)?;
         let (forces, constraints) = (forces?, constraints?);
         let built = mechanism.with_forces(forces).and_then(|mechanism| mechanism.with_constraints(constraints));
-        let refused = |error: SimulationError| {
-            Mistake::new(table.place.clone(), error.to_string()).valid("forces and constraints of finite numbers")
+        let refused = |error: SimulationError| match &error {
+            SimulationError::RateAgainstRolling { coordinate, .. } => {
+                let (name, rest) = coordinate.split_once('.').unwrap_or((coordinate, ""));
+                let joint = joints.iter().find(|joint| joint.text("name") == Some(name));
+                let keys = if rest.starts_with("shift") { ["velocity"; 3] } else { ["rates", "rate", "speed"] };
+                let key = keys.into_iter().find(|key| joint.is_some_and(|joint| joint.has(key))).unwrap_or_default();
+                let place = joint.map_or(table.place.clone(), |joint| joint.place_of(key));
+                Mistake::new(place, error.to_string()).valid("the rate that follows, or none")
+            }
+            SimulationError::DiscFlat { constraint } => {
+                let records = scene.records("constraint");
+                let record = records.iter().find(|record| record.text("name") == Some(constraint));
+                let place = record.map_or(table.place.clone(), |record| record.place_of("axis"));
+                Mistake::new(place, error.to_string()).valid("a disc that stands on its edge, or leans")
+            }
+            _ => Mistake::new(table.place.clone(), error.to_string()).valid("forces and constraints of finite numbers"),
         };
         let mechanism = built.map_err(|error| self.wrong(refused(error))).ok()?;
         if mechanism.rolls() && (questions.equilibrium || questions.modes) {

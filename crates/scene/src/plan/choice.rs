@@ -218,7 +218,12 @@ fn phase(scene: &Scene, system: &PhaseSystem) -> (Method, String) {
         if scene.integrator.tolerance.is_some() {
             return adaptive(scene, TOLERANCE, why);
         }
-        let reason = "at this tolerance its errors are about those of rounding, between its steps too";
+        let reason = match turns(scene) {
+            Some(turns) if FEW_TURNS < turns => {
+                "its errors grow with the square of the time; integrator.step asks for a symplectic method, whose errors grow with the time"
+            }
+            _ => "at this tolerance its errors are about those of rounding, between its steps too",
+        };
         return (Method::Nystrom86 { tolerance: FINE_NYSTROM_86 }, format!("{why}; {reason}"));
     }
     let (step, why) = step(scene, Order::Eight);

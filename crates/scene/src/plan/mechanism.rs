@@ -26,6 +26,12 @@ pub(super) fn tables(system: &Mechanism) -> impl Iterator<Item = &'static str> {
 }
 
 impl Plan {
+    /// Whether each independent part of a mechanism takes steps of its own.
+    pub(crate) fn integrates_islands(&self, system: &Mechanism) -> bool {
+        let adapts = self.method.step().is_none() && self.method != Method::ClosedForm;
+        adapts && system.simplify
+    }
+
     /// How the motion is found, and what of the mechanism its steps do not see.
     pub(super) fn evaluation_items(&mut self, system: &Mechanism) {
         if self.method == Method::ClosedForm {
@@ -34,8 +40,7 @@ impl Plan {
             return;
         }
         self.compute("accelerations", "inertia metric and bias in one pass, by exact derivatives of the placement");
-        let adapts = self.method.step().is_none();
-        let islands = if adapts { system.islands().len() } else { 1 };
+        let islands = if self.integrates_islands(system) { system.islands().len() } else { 1 };
         if !system.simplify {
             self.skip("simplifications", "integrator.simplify = false");
             return;

@@ -18,7 +18,7 @@ pub use piola_simulation::motion::{
 };
 
 use crate::SceneError;
-use crate::model::Scene;
+use crate::model::{Scene, System};
 use crate::plan::{self, Plan};
 
 /// A run with all that it recorded, however far it came.
@@ -139,7 +139,8 @@ pub struct Prediction {
     pub bytes: f64,
 }
 
-/// Tries the first steps of a run: whether it starts, and what it will cost. It takes a few hundredths of a second.
+/// Tries the first steps of a run: whether it starts, and what it will cost. It takes a few hundredths of a second, and
+/// longer for hundreds of independent parts, of which each is tried.
 ///
 /// Steps that become shorter or longer later, as in close encounters, change the cost.
 ///
@@ -164,29 +165,48 @@ pub struct Prediction {
 /// # Ok::<(), piola_scene::SceneError>(())
 /// ```
 pub fn trial(scene: &Scene, plan: &Plan) -> Result<Prediction, String> {
-    /// Steps of a trial.
+    /// Steps of a trial, of all independent parts of a mechanism together, and the least of one of them.
     const STEPS: u64 = 500;
+    const LEAST: u64 = 20;
     /// Its time, s.
     const SECONDS: f64 = 0.02;
-    let begun = Instant::now();
-    let mut fraction = 0.0;
-    let motion = simulate(&scene.system, plan.method, &plan::timetable(scene), &mut |progress| {
-        fraction = progress.fraction;
-        let enough = STEPS <= progress.steps || SECONDS <= begun.elapsed().as_secs_f64();
-        if enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    });
-    let run = recorded(scene, motion, begun);
-    if let (Outcome::Failed(why), 0) = (&run.outcome, run.steps) {
-        return Err(why.clone());
+    let islands = match &scene.system {
+        // Each part takes steps of its own: none tells the cost of another.
+        System::Mechanism(system) if plan.integrates_islands(system) => {
+            system.islands().into_iter().map(|island| System::Mechanism(Box::new(island.mechanism))).collect()
+        }
+        _ => Vec::new(),
+    };
+    let systems = if islands.is_empty() { core::slice::from_ref(&scene.system) } else { &islands[..] };
+    let count = systems.len() as u64;
+    let most = (STEPS / count).max(LEAST);
+    let timetable = plan::timetable(scene);
+    let mut prediction = Prediction {
+        tried_steps: 0,
+        force_evaluations: 0.0,
+        seconds: 0.0,
+        bytes: (plan.instants * (plan.equations + 16) * size_of::<f64>()) as f64,
+    };
+    for system in systems {
+        let begun = Instant::now();
+        let mut fraction = 0.0;
+        let motion = simulate(system, plan.method, &timetable, &mut |progress| {
+            fraction = progress.fraction;
+            let enough = most <= progress.steps || SECONDS / count as f64 <= begun.elapsed().as_secs_f64();
+            if enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let seconds = begun.elapsed().as_secs_f64();
+        let MotionRun { steps, force_evaluations, .. } = motion;
+        let whole = match judged(motion.outcome, &motion.history) {
+            Outcome::Failed(why) if steps == 0 => return Err(why),
+            Outcome::Completed => 1.0,
+            _ => fraction,
+        };
+        prediction.tried_steps += steps;
+        prediction.force_evaluations += force_evaluations as f64 / whole;
+        prediction.seconds += seconds / whole;
     }
-    let whole = if matches!(run.outcome, Outcome::Completed) { 1.0 } else { fraction };
-    let components = plan.equations + 16;
-    Ok(Prediction {
-        tried_steps: run.steps,
-        force_evaluations: run.force_evaluations as f64 / whole,
-        seconds: run.wall_time / whole,
-        bytes: (plan.instants * components * size_of::<f64>()) as f64,
-    })
+    Ok(prediction)
 }
 
 impl core::fmt::Display for Prediction {
@@ -213,13 +233,19 @@ fn duration(seconds: f64) -> String {
 /// A motion that began at an instant of the clock, with its drifts and errors.
 fn recorded(scene: &Scene, motion: MotionRun, begun: Instant) -> Run {
     let wall_time = begun.elapsed().as_secs_f64();
-    let MotionRun { mut outcome, time, steps, rejected, force_evaluations, history, .. } = motion;
-    if let (Outcome::Completed, Some(why)) = (&outcome, not_finite(&history)) {
-        outcome = Outcome::Failed(why);
-    }
+    let MotionRun { outcome, time, steps, rejected, force_evaluations, history, .. } = motion;
+    let outcome = judged(outcome, &history);
     let drifts = history.drifts();
     let errors = comparison::errors(scene, &history);
     Run { outcome, time, steps, rejected, force_evaluations, wall_time, history, drifts, errors, answers: None }
+}
+
+/// The outcome of a run: one with numbers that are not finite has failed.
+fn judged(outcome: Outcome, history: &History) -> Outcome {
+    match (outcome, not_finite(history)) {
+        (Outcome::Completed, Some(why)) => Outcome::Failed(why),
+        (outcome, _) => outcome,
+    }
 }
 
 /// The first recorded number that is not finite, in words: such a record is no result.

@@ -68,7 +68,7 @@ pub use plan::StudyPlan;
 #[cfg(feature = "robots")]
 pub use robot::RobotStudy;
 pub use room::Room;
-pub use run::{Findings, StudyRun, has_checkpoints, run, run_with_checkpoints};
+pub use run::{Findings, StudyRun, checkpoint_time, has_checkpoints, run, run_with_checkpoints};
 pub use wavefront::Wavefront;
 
 use crate::model::OutputRequest;

@@ -77,6 +77,14 @@ pub fn has_checkpoints(study: &Study) -> bool {
     study.subject.has_checkpoints()
 }
 
+/// The time (s) of the checkpoint that a run before has left, if there is one.
+///
+/// # Errors
+/// As [`run_with_checkpoints`].
+pub fn checkpoint_time(study: &Study, checkpoints: &Checkpoints) -> Result<Option<f64>, SceneError> {
+    Ok(Before::of(study, checkpoints)?.time())
+}
+
 /// As [`run`], with checkpoints in the folder of the results. With `resume` the run goes on from the last one, if there is one; its
 /// time (s) is returned with the run.
 ///

@@ -188,3 +188,41 @@ fn plan_is_told_as_text_and_as_json() {
     assert_eq!(json["method"]["name"], "nystrom-1210");
     assert!(json["skipped"][0]["why"].is_string(), "{json}");
 }
+
+#[test]
+fn the_predicted_cost_counts_every_independent_part() {
+    // The second pendulum is a thousand times as fast as the first one.
+    let text = "
+[mechanism]
+[[joint]]
+name = 'slow'
+type = 'revolute'
+axis = [0, 1, 0]
+angle = 0.3
+[[joint]]
+name = 'fast'
+type = 'revolute'
+axis = [0, 1, 0]
+angle = 0.3
+[[particle]]
+name = 'a'
+joint = 'slow'
+at = [0, 0, -1000]
+mass = 1
+[[particle]]
+name = 'b'
+joint = 'fast'
+at = [0, 0, -1e-3]
+mass = 1
+[time]
+end = 20
+[output]
+samples = 3
+";
+    let scene = scene(text);
+    let plan = Plan::of(&scene);
+    let run = piola_scene::run::run(&scene, &plan, |_| core::ops::ControlFlow::Continue(()));
+    let cost = piola_scene::run::trial(&scene, &plan).map_or(f64::NAN, |cost| cost.force_evaluations);
+    let ratio = cost / run.force_evaluations as f64;
+    assert!((0.5..2.0).contains(&ratio), "{cost} of {}", run.force_evaluations);
+}

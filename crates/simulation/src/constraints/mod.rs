@@ -39,7 +39,8 @@ impl Mechanism {
     ///
     /// # Errors
     /// [`SimulationError`] where a length is not positive, a coordinate or joint does not exist, or a prescribed motion depends
-    /// on coordinates or rates.
+    /// on coordinates or rates. Where bodies roll: a disc that lies flat at the start, or a rate that is not zero and differs from
+    /// the one that follows from the free rates.
     ///
     /// # Example
     /// A mass of 2 kg on a vertical rail, lifted by 3 t²: the drive carries 2 kg (10 + 6) m/s² = 32 N.
@@ -103,6 +104,9 @@ impl Mechanism {
             return Err(SimulationError::RollingWithOthers);
         }
         self.constraints = constraints;
+        if self.rolls() {
+            self.rolling_start()?;
+        }
         Ok(self)
     }
 
@@ -166,6 +170,11 @@ impl ConstraintKind {
             Self::Loop { .. } => 3,
             Self::Rolling { .. } => 0,
         }
+    }
+
+    /// The number of its forces in [`Mechanism::condition_names`].
+    pub(crate) fn forces(&self) -> usize {
+        if matches!(self, Self::Rolling { .. }) { 3 } else { self.conditions() }
     }
 }
 

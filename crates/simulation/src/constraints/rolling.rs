@@ -5,12 +5,15 @@
 //! ```
 //! Three conditions on the velocities, linear in q̇. Some of the rates follow from the others: lengths before angles. The state holds the
 //! coordinates and the rates that are free, so that nothing slips, at any tolerance.
+//!
+//! Conditions that follow from others at the start are left out. A run ends with an error where the motion violates one of them.
 
 use nalgebra::Vector3;
 use piola_lagrangian::anholonomic::{ByCoframe, Coframe, Nonholonomic};
+use piola_lagrangian::{ConstraintError, LagrangianError};
 use piola_numerics::{Dual, Real};
 
-use super::ConstraintKind;
+use super::{Constraint, ConstraintKind};
 use crate::SimulationError;
 use crate::forces::{AppliedForces, MechanismLagrangian, MechanismPotential};
 use crate::joints::{JointTree, Mechanism};
@@ -86,6 +89,70 @@ impl Mechanism {
     #[must_use]
     pub fn rolls(&self) -> bool {
         self.constraints.iter().any(|constraint| matches!(constraint.kind, ConstraintKind::Rolling { .. }))
+    }
+
+    /// The rates that are free, at the start. Dependent rates that are zero count as not given.
+    ///
+    /// # Errors
+    /// [`SimulationError::DiscFlat`], [`SimulationError::RateAgainstRolling`].
+    pub(crate) fn rolling_start(&self) -> Result<Vec<f64>, SimulationError> {
+        /// The largest relative difference between a rate that is given and the one that follows.
+        const AGREED: f64 = 1e-6;
+        self.discs_stand()?;
+        let free = self.rolling_frame().free;
+        let rates: Vec<f64> = free.iter().map(|i| self.velocity[*i]).collect();
+        // A start without velocities is refused by the run, with its reason.
+        if let Ok(follows) = self.rolling(self.lagrangian())?.velocities(&self.position, &rates, 0.0) {
+            for (i, (&given, &follows)) in self.velocity.iter().zip(follows.as_slice()).enumerate() {
+                let contradicts = AGREED * given.abs().max(follows.abs()) < (given - follows).abs();
+                if !free.contains(&i) && 0.0 < given.abs() && contradicts {
+                    let coordinate = self.coordinates[i].clone();
+                    return Err(SimulationError::RateAgainstRolling { coordinate, given, follows });
+                }
+            }
+        }
+        Ok(rates)
+    }
+
+    /// Refuses discs whose lowest point is not unique at the start.
+    fn discs_stand(&self) -> Result<(), SimulationError> {
+        /// The least |n − (n·a) a|: below it rounding decides on the direction.
+        const LEAST: f64 = 1e-6;
+        for Constraint { name, kind } in &self.constraints {
+            let ConstraintKind::Rolling { centre, axis: Some(axis), normal, .. } = kind else { continue };
+            let (_, attitude) = self.tree.frame_of(centre, &|k| self.position[k]);
+            let (a, n) = (attitude.to_space(&Vector3::from(*axis)), Vector3::from(*normal));
+            if (n - a * n.dot(&a)).norm() < LEAST {
+                return Err(SimulationError::DiscFlat { constraint: name.clone() });
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks the conditions that were left out at the start.
+    ///
+    /// # Errors
+    /// [`ConstraintError::Singular`] where one is violated.
+    pub(crate) fn check_left_out(
+        &self,
+        frame: &RollingFrame<'_>,
+        q: &[f64],
+        v: &[f64],
+        t: f64,
+    ) -> Result<(), LagrangianError> {
+        /// The largest velocity of slip, over the largest term of all conditions.
+        const SLIP: f64 = 1e-4;
+        let mut slips = vec![0.0; 3 * self.constraints.len()];
+        let mut scale = 0.0_f64;
+        conditions(self, q, &mut |condition, coordinate, value: f64| {
+            slips[condition] += value * v[coordinate];
+            scale = scale.max((value * v[coordinate]).abs());
+        });
+        let slipping = |condition: &usize| !frame.held.contains(condition) && SLIP * scale < slips[*condition].abs();
+        let Some(condition) = (0..slips.len()).find(slipping) else { return Ok(()) };
+        let constraint = condition / 3;
+        let name = Some(self.constraints[constraint].name.clone());
+        Err(ConstraintError::Singular { constraint, name, time: t }.into())
     }
 
     /// The equations of the mechanism with bodies that roll, on the parts of a tree.

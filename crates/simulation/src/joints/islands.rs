@@ -18,6 +18,10 @@ pub struct Island {
     pub parts: Vec<usize>,
     /// Its coordinates, by their index in the whole.
     pub coordinates: Vec<usize>,
+    /// Its forces, by their index in the whole.
+    pub(crate) forces: Vec<usize>,
+    /// Its constraints, by their index in the whole.
+    pub(crate) constraints: Vec<usize>,
 }
 
 /// Which joint carries what moves, and which island that belongs to.
@@ -129,7 +133,8 @@ impl Mechanism {
         leaders.dedup();
         if leaders.len() < 2 {
             let (parts, coordinates) = ((0..self.parts.len()).collect(), (0..self.tree.freedom).collect());
-            return vec![Island { mechanism: self.clone(), parts, coordinates }];
+            let (forces, constraints) = ((0..self.forces.len()).collect(), (0..self.constraints.len()).collect());
+            return vec![Island { mechanism: self.clone(), parts, coordinates, forces, constraints }];
         }
         // The island of each coordinate, and of each joint: that of the ground is the first one.
         let place = |leader: usize| leaders.iter().position(|other| *other == leader).unwrap_or_default();
@@ -173,16 +178,20 @@ impl Mechanism {
         // What moves with no coordinate is in the first island.
         let here = |coordinate: Option<usize>| coordinate.map_or(0, |coordinate| of_coordinates[coordinate]) == island;
         let moved = |anchors: &[Anchor]| anchors.iter().flat_map(|anchor| self.tree.coordinates_of(anchor)).next();
-        let force = |Force { name, kind }: &Force| {
+        let force = |(index, Force { name, kind }): (usize, &Force)| {
             let kind = restricted(kind, &moved, &here, &numbered)?;
-            Some(Force { name: name.clone(), kind })
+            Some((index, Force { name: name.clone(), kind }))
         };
-        mechanism.forces = self.forces.iter().filter_map(force).collect();
-        mechanism.constraints.retain(|constraint| match &constraint.kind {
+        let forces;
+        (forces, mechanism.forces) = self.forces.iter().enumerate().filter_map(force).unzip();
+        let holds_here = |kind: &ConstraintKind| match kind {
             ConstraintKind::Distance { ends, .. } | ConstraintKind::Loop { ends } => here(moved(ends)),
             ConstraintKind::Rolling { centre, .. } => here(moved(core::slice::from_ref(centre))),
             ConstraintKind::Prescribed { coordinate, .. } => here(Some(*coordinate)),
-        });
+        };
+        let constraints: Vec<usize> =
+            (0..self.constraints.len()).filter(|i| holds_here(&self.constraints[*i].kind)).collect();
+        mechanism.constraints = constraints.iter().map(|i| self.constraints[*i].clone()).collect();
         for Constraint { kind, .. } in &mut mechanism.constraints {
             if let ConstraintKind::Prescribed { coordinate, .. } = kind {
                 *coordinate = numbered(*coordinate);
@@ -193,7 +202,7 @@ impl Mechanism {
         mechanism.angular = coordinates.iter().map(|i| self.angular[*i]).collect();
         mechanism.position = coordinates.iter().map(|i| self.position[*i]).collect();
         mechanism.velocity = coordinates.iter().map(|i| self.velocity[*i]).collect();
-        Island { mechanism, parts, coordinates }
+        Island { mechanism, parts, coordinates, forces, constraints }
     }
 }
 

@@ -156,10 +156,13 @@ impl MotionCheckpoint {
 /// See [`resume`](super::resume).
 pub trait CheckpointKeeper {
     /// Whether a checkpoint is wanted now. An adaptive method asks after every step. A method of fixed step asks at every instant
-    /// that is recorded, and after every thousand steps between two instants.
+    /// that is recorded, and after every thousand steps between two instants. A mechanism with constraints asks after a thousand steps,
+    /// or where it is next apart from singular positions; one that stays beside such a position, as a linkage at rest there, does not
+    /// ask again.
     fn is_due(&mut self) -> bool;
     /// Takes a checkpoint: one that is due, or the last one of a run that its observer stops. Of an adaptive method and of a closed
     /// form the last one is of the step at which the run stops. Of a method of fixed step it is of the last instant that was recorded
-    /// or the last thousand steps, because the method begins anew there.
+    /// or the last thousand steps, because the method begins anew there; of a mechanism with constraints, of the place where it last
+    /// asked, or of the start.
     fn keep(&mut self, checkpoint: &MotionCheckpoint);
 }

@@ -8,6 +8,7 @@ use piola_integrators::{Ending, Report};
 use super::checkpoint::{CheckpointKeeper, MotionCheckpoint, Part};
 use super::drive::{Driver, Keeper, Observer};
 use super::{History, Invariants, Method, MotionRun, PartReaction, Progress, TimeSpan, Timetable, mechanism};
+use crate::forces::ForceKind;
 use crate::joints::{Island, Mechanism};
 
 /// The islands of a mechanism that a method gains by: several, whose steps adapt.
@@ -17,8 +18,8 @@ pub(super) fn of(system: &Mechanism, method: Method) -> Option<Vec<Island>> {
     (1 < islands.len()).then_some(islands)
 }
 
-/// Integrates the islands in their order. After one that is stopped or fails the others record their start alone: the record of all
-/// holds the instants that each has reached.
+/// Integrates the islands in their order. After one that is stopped or fails the others go on to the last instant that it has recorded,
+/// so that the record of all holds these instants. The observer is not asked there, and steps are not counted.
 pub(super) fn run(
     system: &Mechanism,
     islands: &[Island],
@@ -29,33 +30,42 @@ pub(super) fn run(
 ) -> MotionRun {
     let mut done = resumed.as_mut().map(|checkpoint| core::mem::take(&mut checkpoint.body.done)).unwrap_or_default();
     let mut report = done.iter().fold(Report::begin(), |report, part| report.then(part.report));
-    let (mut result, mut halted) = (Ok(()), false);
+    let span = timetable.span();
+    let mut result = Ok(());
+    // The last instant of an island that is stopped or fails.
+    let mut until: Option<f64> = None;
     for island in &islands[done.len()..] {
         let (before, steps) = (done.len() as f64, report.steps);
         let mut progress = |one: Progress| {
-            if halted {
-                return ControlFlow::Break(());
+            if let Some(until) = until {
+                return if span.order(one.time, until).is_lt() {
+                    ControlFlow::Continue(())
+                } else {
+                    ControlFlow::Break(())
+                };
             }
             let fraction = (before + one.fraction) / islands.len() as f64;
             observer(Progress { time: one.time, fraction, steps: steps + one.steps })
         };
         let names = island.mechanism.parts.iter().map(|part| part.name.clone()).collect();
-        let keeper: Option<Keeper<'_>> = keeper.as_mut().filter(|_| !halted).map(|(keeper, marks)| {
+        let keeper: Option<Keeper<'_>> = keeper.as_mut().filter(|_| until.is_none()).map(|(keeper, marks)| {
             let keeper: &mut dyn CheckpointKeeper = &mut **keeper;
             (keeper, marks.clone())
         });
         let mut driver = Driver::new(names, timetable, &mut progress, (keeper, resumed.take())).after(done);
         let one = mechanism::mechanism(&island.mechanism, method, &mut driver);
         let (part, others) = driver.finish();
-        if !halted {
+        if until.is_none() {
             report = report.then(part.report);
+            if one.is_err() || part.report.ending == Ending::Stopped {
+                until = Some(part.history.times.last().copied().unwrap_or(span.start));
+            }
+            result = one;
         }
-        halted |= one.is_err() || part.report.ending == Ending::Stopped;
-        result = result.and(one);
         done = others;
         done.push(part);
     }
-    MotionRun::of(together(system, islands, done, report, timetable.span()), result)
+    MotionRun::of(together(system, islands, done, report, span), result)
 }
 
 /// Islands as one.
@@ -89,16 +99,20 @@ fn together(system: &Mechanism, islands: &[Island], done: Vec<Part>, report: Rep
             }
         }
     }
+    let columns: Vec<Columns> = islands.iter().map(|island| Columns::of(system, island)).collect();
+    let rows = columns.iter().zip(&histories);
     history.work_names = system.work_names();
-    history.works = sums(&history.work_names, &histories, recorded, |own| (&own.work_names, &own.works));
+    let works = rows.clone().map(|(columns, own)| (&columns.works, &own.works));
+    history.works = sums(history.work_names.len(), recorded, works);
     if system.questions.energies {
         history.energy_names = mechanism::energy_names(system);
-        history.energies = sums(&history.energy_names, &histories, recorded, |own| (&own.energy_names, &own.energies));
+        let energies = rows.clone().map(|(columns, own)| (&columns.energies, &own.energies));
+        history.energies = sums(history.energy_names.len(), recorded, energies);
     }
     if system.reactions {
         history.condition_names = system.condition_names();
-        history.conditions =
-            sums(&history.condition_names, &histories, recorded, |own| (&own.condition_names, &own.conditions));
+        let conditions = rows.map(|(columns, own)| (&columns.conditions, &own.conditions));
+        history.conditions = sums(history.condition_names.len(), recorded, conditions);
     }
     history.singular_positions = histories.iter().flat_map(|own| own.singular_positions.iter().cloned()).collect();
     history.singular_positions.sort_by(|a, b| span.order(a.0, b.0));
@@ -107,23 +121,51 @@ fn together(system: &Mechanism, islands: &[Island], done: Vec<Part>, report: Rep
     Part { history, report, time }
 }
 
-/// Rows of numbers with names, each the sum of those of its name.
-fn sums(
-    names: &[String],
-    histories: &[History],
+/// The columns that those of an island have in tables of the whole: names need not be unique.
+struct Columns {
+    works: Vec<usize>,
+    energies: Vec<usize>,
+    conditions: Vec<usize>,
+}
+
+impl Columns {
+    fn of(system: &Mechanism, island: &Island) -> Self {
+        let forces = |holds: &dyn Fn(&ForceKind) -> bool| -> (Vec<usize>, usize) {
+            let all: Vec<usize> = (0..system.forces.len()).filter(|i| holds(&system.forces[*i].kind)).collect();
+            let own = island.forces.iter().filter_map(|force| all.iter().position(|other| other == force));
+            (own.collect(), all.len())
+        };
+        let (mut works, working) = forces(&ForceKind::works);
+        if island.mechanism.is_driven() {
+            works.push(working);
+        }
+        let mut energies: Vec<usize> = island.parts.iter().flat_map(|part| [2 * part, 2 * part + 1]).collect();
+        energies.extend(forces(&ForceKind::stores).0.into_iter().map(|place| 2 * system.parts.len() + place));
+        let mut first = 0;
+        let firsts = system.constraints.iter().map(|constraint| {
+            first += constraint.kind.forces();
+            first - constraint.kind.forces()
+        });
+        let firsts: Vec<usize> = firsts.collect();
+        let own = island.constraints.iter().map(|i| firsts[*i]..firsts[*i] + system.constraints[*i].kind.forces());
+        Self { works, energies, conditions: own.flatten().collect() }
+    }
+}
+
+/// Rows of as many numbers, each the sum of those that the islands have for it.
+fn sums<'h>(
+    count: usize,
     recorded: usize,
-    of: impl for<'h> Fn(&'h History) -> (&'h Vec<String>, &'h Vec<Vec<f64>>),
+    islands: impl Iterator<Item = (&'h Vec<usize>, &'h Vec<Vec<f64>>)>,
 ) -> Vec<Vec<f64>> {
-    if names.is_empty() {
+    if count == 0 {
         return Vec::new();
     }
-    let mut sums = vec![vec![0.0; names.len()]; recorded];
-    for own in histories {
-        let (own_names, rows) = of(own);
-        for (column, name) in own_names.iter().enumerate() {
-            let Some(place) = names.iter().position(|other| other == name) else { continue };
-            for (sum, row) in sums.iter_mut().zip(rows) {
-                sum[place] += row[column];
+    let mut sums = vec![vec![0.0; count]; recorded];
+    for (columns, rows) in islands {
+        for (sum, row) in sums.iter_mut().zip(rows) {
+            for (column, value) in columns.iter().zip(row) {
+                sum[*column] += value;
             }
         }
     }

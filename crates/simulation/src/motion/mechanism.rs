@@ -53,7 +53,7 @@ pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver)
     }
     if rolling.is_some() {
         // The rates that are free; the others follow from them.
-        velocity = system.rolling_frame().free.iter().map(|i| velocity[*i]).collect();
+        velocity = system.rolling_start().map_err(|error| error.to_string())?;
     } else if let Some(constrained) = &constrained {
         let start = constrained.assemble(&position, &velocity, driver.start()).map_err(|error| error.to_string())?;
         (position, velocity) = (start.coordinates, start.velocities);
@@ -83,7 +83,10 @@ pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver)
         Power { system, lagrangian: &lean, working: &working, work: Workspace::default(), forces: vec![0.0; n] };
     if rolling.is_some() {
         let rolling = system.rolling(lean.clone()).map_err(|error| error.to_string())?;
-        let mut field = RollingWithWork { field: rolling.motion(n), coordinates: n, power, works };
+        let frame = system.rolling_frame();
+        let leaves_out = frame.held.len() < 3 * system.constraints.len();
+        let left_out = leaves_out.then_some(LeftOut { frame, rolling: &rolling, slips: None });
+        let mut field = RollingWithWork { field: rolling.motion(n), coordinates: n, power, works, left_out };
         return driver.field(method, &mut field, &mut state, &mut reading);
     }
     match &constrained {
@@ -182,6 +185,15 @@ struct RollingWithWork<'m, F> {
     coordinates: usize,
     power: Power<'m>,
     works: usize,
+    left_out: Option<LeftOut<'m>>,
+}
+
+/// Conditions of rolling that followed from others at the start.
+struct LeftOut<'m> {
+    frame: RollingFrame<'m>,
+    rolling: &'m RollingMechanism<'m>,
+    /// The error once one of them is violated.
+    slips: Option<LagrangianError>,
 }
 
 impl<F: Field<Error = LagrangianError>> Field for RollingWithWork<'_, F> {
@@ -190,6 +202,9 @@ impl<F: Field<Error = LagrangianError>> Field for RollingWithWork<'_, F> {
         self.field.dimension() + self.works
     }
     fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), LagrangianError> {
+        if let Some(error) = self.left_out.as_ref().and_then(|left_out| left_out.slips.clone()) {
+            return Err(error);
+        }
         let (motion, powers) = rate.split_at_mut(self.field.dimension());
         self.field.rate(t, &y[..motion.len()], motion)?;
         if powers.is_empty() {
@@ -198,6 +213,15 @@ impl<F: Field<Error = LagrangianError>> Field for RollingWithWork<'_, F> {
         // No drive stands beside what rolls: accelerations are not needed.
         let velocities = &motion[..self.coordinates];
         self.power.write(&y[..self.coordinates], (velocities, velocities), t, powers)
+    }
+    /// Checks the conditions that were left out; nothing else is to be projected.
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), LagrangianError> {
+        let Some(LeftOut { frame, rolling, slips }) = &mut self.left_out else { return Ok(()) };
+        let (q, free) = y[..self.field.dimension()].split_at(self.coordinates);
+        let v = rolling.velocities(q, free, t)?;
+        let checked = self.power.system.check_left_out(frame, q, v.as_slice(), t);
+        *slips = checked.clone().err();
+        checked
     }
     fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
         let dimension = self.field.dimension();

@@ -86,9 +86,12 @@ impl Field for PhaseField {
         }
         finite("q", q)?;
         finite("p", p)?;
-        // ∂H/∂q stands before ∂H/∂p in dH.
-        finite("dH", &rate[n..2 * n])?;
-        finite("dH", rate)
+        // ∂H/∂q stands before ∂H/∂p in dH, and is −ṗ.
+        let (velocity, rest) = rate.split_at(n);
+        let (force, power) = rest.split_at(n);
+        let differential: Vec<f64> = force.iter().map(|f| -f).chain(velocity.iter().copied()).collect();
+        finite("dH", &differential)?;
+        finite("∂H/∂t", power)
     }
     /// The work does not act back on the motion, whose steps serve for it.
     fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
@@ -129,7 +132,7 @@ impl Separable for Split {
                 }
             });
         }
-        finite("dH", velocity)
+        finite("∂H/∂p", velocity)
     }
     fn force(&mut self, t: f64, position: &[f64], force: &mut [f64]) -> Result<(), HamiltonianError> {
         force.fill(0.0);
@@ -140,7 +143,7 @@ impl Separable for Split {
                 }
             });
         }
-        finite("dH", force)
+        finite("ṗ", force)
     }
 }
 

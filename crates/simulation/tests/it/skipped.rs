@@ -248,6 +248,46 @@ fn a_run_of_islands_that_is_stopped_has_a_record() {
     assert_eq!((run.outcome, run.steps), (Outcome::Interrupted, 40));
     assert!(!run.history.times.is_empty() && run.history.times.len() == run.history.positions.len());
     assert!(!run.history.invariants.is_empty());
+    // All islands reach the last instant that the one that was stopped has recorded, also where it is the first one.
+    let System::Mechanism(mechanism) = &system else { return };
+    let whole = run_of(&system, u64::MAX);
+    let first = simulate_alone(&mechanism.islands()[0].mechanism).steps;
+    for stop in [first / 2, (first + whole.steps) / 2] {
+        let stopped = run_of(&system, stop);
+        let recorded = stopped.history.times.len();
+        assert_eq!((&stopped.outcome, stopped.steps), (&Outcome::Interrupted, stop));
+        assert!(1 < recorded && recorded < 21, "{recorded}");
+        assert_eq!(stopped.history.coordinates, whole.history.coordinates[..recorded]);
+        assert_eq!(stopped.history.energies, whole.history.energies[..recorded]);
+    }
+}
+
+fn run_of(system: &System, stop: u64) -> MotionRun {
+    let timetable = Timetable::new(TimeSpan { start: 0.0, end: 3.0 }, 21, &[]);
+    simulate(system, FINE, &timetable, &mut |progress| {
+        if stop <= progress.steps { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })
+}
+
+fn simulate_alone(mechanism: &Mechanism) -> MotionRun {
+    run_of(&System::Mechanism(Box::new(mechanism.clone())), u64::MAX)
+}
+
+#[test]
+fn columns_of_islands_with_equal_names_are_those_of_their_parts() {
+    let mut system = slow_and_fast(false);
+    for part in &mut system.parts {
+        part.name = "bob".into();
+    }
+    let split = run(&system, FINE, 1.0);
+    let whole = run(&Mechanism { simplify: false, ..system }, FINE, 1.0);
+    let tolerance = Tol::stated(1e-9, "errors of the tolerance 1e-14, which swings of the fast pendulum magnify");
+    assert_close(
+        "energies",
+        split.history.energies.as_flattened_rows(),
+        whole.history.energies.as_flattened_rows(),
+        tolerance,
+    );
 }
 
 fn top(angles: [f64; 3], rates: [f64; 3], height: f64) -> Mechanism {

@@ -2,6 +2,7 @@
 
 use piola_integrators::State;
 use piola_multibody::{ClosedMotion, TreeMotion};
+use piola_simulation::SimulationError;
 use piola_simulation::internal::Marks;
 use serde::{Deserialize, Serialize};
 
@@ -17,7 +18,16 @@ pub(super) const PIECE: u32 = 1000;
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::studies) struct RobotCheckpoint {
-    pub(super) marks: Marks,
+    marks: Marks,
+    /// The fingerprint of the body.
+    fingerprint: Marks,
+    pub(super) body: RobotCheckpointBody,
+}
+
+/// What a run goes on from.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RobotCheckpointBody {
     pub(super) state: State,
     pub(super) samples: Vec<RobotSample>,
     pub(super) cost: [u64; 3],
@@ -25,20 +35,39 @@ pub(in crate::studies) struct RobotCheckpoint {
 }
 
 impl RobotCheckpoint {
+    pub(super) fn new(robot: &RobotStudy, body: RobotCheckpointBody) -> Self {
+        Self { marks: robot.marks(), fingerprint: body.fingerprint(), body }
+    }
+
     /// Time reached, s.
     pub(in crate::studies) fn time(&self) -> f64 {
-        self.state.time
+        self.body.state.time
+    }
+
+    /// Checks that the checkpoint is of this run and is as it was made.
+    fn check(&self, robot: &RobotStudy) -> Result<(), SimulationError> {
+        self.marks.check(robot.marks())?;
+        self.fingerprint.check(self.body.fingerprint()).map_err(|_| SimulationError::CheckpointChanged)
+    }
+}
+
+impl RobotCheckpointBody {
+    fn fingerprint(&self) -> Marks {
+        Marks::of_run(format_args!("{self:?}"))
     }
 }
 
 impl RobotStudy {
-    pub(super) fn marks(&self) -> Marks {
-        Marks::of_run(format_args!("{self:?}"))
+    /// The marks of a run, by all that its record depends on: not by the paths of files, which may be spelled in several ways.
+    fn marks(&self) -> Marks {
+        let Self { closed, time, tolerance, samples, stops, start, drives, names, slip_rate, .. } = self;
+        let asked = (time, tolerance, samples, stops);
+        Marks::of_run(format_args!("{asked:?}{closed:?}{start:?}{drives:?}{names:?}{slip_rate:?}"))
     }
 
     /// The checkpoint that a run before has left.
     pub(in crate::studies) fn last(&self, checkpoints: &Checkpoints) -> Result<Option<RobotCheckpoint>, SceneError> {
-        checkpoints.read(|checkpoint: &RobotCheckpoint| checkpoint.marks.check(self.marks()))
+        checkpoints.read(|checkpoint: &RobotCheckpoint| checkpoint.check(self))
     }
 }
 

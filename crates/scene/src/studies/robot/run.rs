@@ -9,7 +9,7 @@ use piola_multibody::{MultibodyError, TreeWorkspace};
 use piola_simulation::motion::CheckpointKeeper as _;
 
 use super::RobotStudy;
-use super::checkpoint::{PIECE, Renewable, RobotCheckpoint};
+use super::checkpoint::{PIECE, Renewable, RobotCheckpoint, RobotCheckpointBody};
 use super::sample::{RobotSample, WORKS};
 use crate::run::{Checkpoints, Outcome};
 use crate::studies::observer::Observer;
@@ -25,12 +25,41 @@ pub struct RobotMotion {
     pub reached: f64,
     /// The largest change of energies less work, over the largest energy or work met.
     pub energy_error: f64,
-    /// Singular positions that the run went through: times, s, and closures.
+    /// Singular positions that the run went through, the first 64: times, s, and closures.
     pub singular_positions: Vec<(f64, String)>,
     /// The first instants at which joints are beyond their limits, s, and the joints.
     pub beyond_limits: Vec<(f64, String)>,
     /// The names of the coordinates.
     pub names: Vec<String>,
+}
+
+/// Singular positions that are listed.
+const LISTED: usize = 64;
+
+/// A run where it begins anew, with the lengths of its record.
+struct Piece {
+    state: State,
+    cost: [u64; 3],
+    samples: usize,
+    singular_positions: usize,
+}
+
+impl Piece {
+    fn of(state: &State, found: &RobotMotion) -> Self {
+        let (samples, singular_positions) = (found.samples.len(), found.singular_positions.len());
+        Self { state: state.clone(), cost: found.cost, samples, singular_positions }
+    }
+
+    /// The checkpoint, from a record that may have become longer since.
+    fn checkpoint(self, robot: &RobotStudy, found: &RobotMotion) -> RobotCheckpoint {
+        let body = RobotCheckpointBody {
+            state: self.state,
+            samples: found.samples[..self.samples].to_vec(),
+            cost: self.cost,
+            singular_positions: found.singular_positions[..self.singular_positions].to_vec(),
+        };
+        RobotCheckpoint::new(robot, body)
+    }
 }
 
 /// A motion with the works of its forces as numbers more.
@@ -119,7 +148,10 @@ impl RobotStudy {
         let tolerance = Tolerance::new(self.tolerance, self.tolerance).map_err(in_words)?;
         let mut work = self.closed.tree().workspace();
         match from {
-            Some(RobotCheckpoint { state: kept, samples, cost, singular_positions, .. }) => {
+            Some(RobotCheckpoint {
+                body: RobotCheckpointBody { state: kept, samples, cost, singular_positions },
+                ..
+            }) => {
                 (state, found.samples, found.cost) = (kept, samples, cost);
                 found.singular_positions = singular_positions;
             }
@@ -127,7 +159,7 @@ impl RobotStudy {
         }
         let last = f64::from(self.samples - 1);
         loop {
-            let piece = keeper.is_some().then(|| self.checkpoint(&state, found));
+            let piece = keeper.is_some().then(|| Piece::of(&state, found));
             let (apart, before) = (motion.apart.clone(), found.cost);
             let (mut refused, mut stopped, mut left) = (None, false, PIECE);
             let result = DormandPrince853::new(tolerance).integrate(&mut motion, &mut state, end, |step| {
@@ -153,33 +185,24 @@ impl RobotStudy {
                 if stopped || (left == 0 && apart.get()) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             let named = |(t, condition)| (t, self.closed.closure_of(condition).to_string());
-            found.singular_positions.extend(motion.motion.renew().into_iter().map(named));
+            let listed = LISTED - found.singular_positions.len().min(LISTED);
+            found.singular_positions.extend(motion.motion.renew().into_iter().take(listed).map(named));
             if let Some(why) = refused {
                 return Err(why);
             }
             let report = result.map_err(|error| error.to_string())?;
             found.cost = [before[0] + report.steps, before[1] + report.rejected, before[2] + report.evaluations];
             if report.ending != Ending::Stopped || stopped {
-                if let (true, Some(keeper), Some(piece)) = (stopped, &mut keeper, &piece) {
-                    keeper.write(piece);
+                if let (true, Some(keeper), Some(piece)) = (stopped, &mut keeper, piece) {
+                    keeper.write(&piece.checkpoint(self, found));
                 }
                 return Ok(report.ending);
             }
             if let Some(keeper) = &mut keeper
                 && keeper.is_due()
             {
-                keeper.write(&self.checkpoint(&state, found));
+                keeper.write(&Piece::of(&state, found).checkpoint(self, found));
             }
-        }
-    }
-
-    fn checkpoint(&self, state: &State, found: &RobotMotion) -> RobotCheckpoint {
-        RobotCheckpoint {
-            marks: self.marks(),
-            state: state.clone(),
-            samples: found.samples.clone(),
-            cost: found.cost,
-            singular_positions: found.singular_positions.clone(),
         }
     }
 
