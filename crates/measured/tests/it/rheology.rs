@@ -415,7 +415,7 @@ fn bands_of_the_other_made_tables_hold_the_fluid_too() -> Result<(), MeasuredErr
         rows += 1;
         held += i32::from(made(low) <= point.at && point.at <= made(high));
     }
-    // Bands of tables that are corrected together hold each row with a probability of 95 %, not all rows at once.
+    // A 95 % band of a whole curve misses some row in one table of twenty; what it misses is few rows.
     assert!(9 * rows <= 10 * held, "{held} of {rows}");
     let Some(Correction::Slip(slip)) = slip.correction else { panic!("no slip") };
     for point in slip.points {

@@ -354,9 +354,8 @@ pub fn normal_stress_with(
     options: Options,
 ) -> Result<NormalStressCurve, ViscometryError> {
     let rule = Rule::Series { step: table.geometry.step(), order: Order::Full, below: Below::Powers };
-    Ok(NormalStressCurve {
-        recovered: Recovered::without_yield(table, rule, table.geometry.stress_per_torque(), options)?,
-    })
+    let recovered = Recovered::without_yield(table, rule, table.geometry.stress_per_torque(), options)?;
+    Ok(NormalStressCurve { recovered })
 }
 
 /// The shear stress over the shear rate at the rim of parallel plates, from a table of torques.
