@@ -216,5 +216,5 @@ end = 1
 ";
     let scene = scene(text);
     let run = run::run(&scene, &Plan::of(&scene), |_| core::ops::ControlFlow::Continue(()));
-    assert!(matches!(&run.outcome, Outcome::Failed(why) if why.contains("`edge`")), "{:?}", run.outcome);
+    assert!(matches!(&run.outcome, Outcome::Failed(why) if why.contains("constraint 0 (edge)")), "{:?}", run.outcome);
 }
