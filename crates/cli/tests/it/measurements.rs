@@ -268,7 +268,10 @@ fn bands_of_a_fluid_that_yields_in_a_wide_gap_hold_its_curve() {
         assert!(shown.contains("the fluid seems to yield") && shown.contains("band of the whole curve"), "{shown}");
         // The rows of the table: stress, rate, viscosity, band. The rate of the fluid is (τ − 10 Pa)/(1 Pa s).
         let numbers = |line: &str| -> Vec<f64> {
-            line.split([' ', ',', '[', ']']).filter(|word| !word.is_empty()).map_while(|word| word.parse().ok()).collect()
+            line.split([' ', ',', '[', ']'])
+                .filter(|word| !word.is_empty())
+                .map_while(|word| word.parse().ok())
+                .collect()
         };
         let rows: Vec<_> = shown.lines().map(numbers).filter(|row| row.len() == 5).collect();
         let held = rows.iter().filter(|row| (row[3]..=row[4]).contains(&(row[0] - 10.0))).count();
