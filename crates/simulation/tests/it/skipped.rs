@@ -252,7 +252,7 @@ fn a_run_of_islands_that_is_stopped_has_a_record() {
     let System::Mechanism(mechanism) = &system else { return };
     let whole = run_of(&system, u64::MAX);
     let first = simulate_alone(&mechanism.islands()[0].mechanism).steps;
-    for stop in [first / 2, (first + whole.steps) / 2] {
+    for stop in [first / 2, u64::midpoint(first, whole.steps)] {
         let stopped = run_of(&system, stop);
         let recorded = stopped.history.times.len();
         assert_eq!((&stopped.outcome, stopped.steps), (&Outcome::Interrupted, stop));
