@@ -167,7 +167,12 @@ impl Recovered {
         let y: Vec<f64> = table.response.iter().map(|x| x.ln()).collect();
         let level = table.level();
         let singular = || ViscometryError::RowsTooClose { rows: u.len() };
-        let rule = assumed(rule, options.below_smallest);
+        let exponent = match options.below_smallest {
+            Some(BelowSmallest::Newtonian) => Some(1.0),
+            Some(BelowSmallest::PowerLaw { exponent }) => Some(exponent),
+            _ => None,
+        };
+        let rule = assumed(rule, exponent);
         let mut recovered = if level <= EXACT {
             let main = Fitted::through(&u, &y, DEGREE).ok_or_else(singular)?;
             let others = [DEGREE - 2, DEGREE + 2].iter().filter_map(|degree| Fitted::through(&u, &y, *degree));

@@ -6,7 +6,6 @@
 //! series     Σ 2 e^y y′ at u − nδ, n < N, and the rest 2 e^y F(…) at u − Nδ
 //! ```
 
-use super::curve::BelowSmallest;
 use super::series::{self, Order};
 use super::smoothing::Curve;
 use super::splines::Derivatives;
@@ -176,13 +175,10 @@ pub(super) const fn coarse(rule: Rule) -> Rule {
     }
 }
 
-/// The rule under an assumption that is given.
-pub(super) const fn assumed(rule: Rule, below: Option<BelowSmallest>) -> Rule {
-    match (rule, below) {
-        (Rule::Series { step, .. }, Some(BelowSmallest::Newtonian)) => {
-            Rule::Series { step, order: Order::Power, below: Below::Exponent(1.0) }
-        }
-        (Rule::Series { step, .. }, Some(BelowSmallest::PowerLaw { exponent })) => {
+/// The rule under a power of the rate below the smallest torque, if one is given.
+pub(super) const fn assumed(rule: Rule, exponent: Option<f64>) -> Rule {
+    match (rule, exponent) {
+        (Rule::Series { step, .. }, Some(exponent)) => {
             Rule::Series { step, order: Order::Power, below: Below::Exponent(exponent) }
         }
         _ => rule,
