@@ -68,8 +68,9 @@ pub fn compare_sides(measurements: &SidesMeasurements, laws: &[SidesModel], opti
 /// let laws = ["hyperfoam:1".parse()?];
 /// let found = compare_sides_with(&measurements, &laws, &SidesOptions::default(), Intervals::Profile);
 /// let (_, foam) = found.fits().next().expect("a fit");
-/// let [low, high] = foam.parameters[0].interval.expect("determined");
-/// assert!(low < 1.0 && 1.0 < high);
+/// let modulus = &foam.parameters[0];
+/// let [low, high] = modulus.interval.expect("determined");
+/// assert!(low < modulus.value && modulus.value < high);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]

@@ -40,7 +40,8 @@ impl<T: Real> FirstPiolaTangent<T> {
     /// use piola_continuum::{DeformationGradient, SecondPiola};
     /// use piola_tensor::{MajorSymmetric, PairSymmetric, Symmetric};
     /// let bar = DeformationGradient::diagonal([2.0, 1.0, 1.0])?;
-    /// let (stress, material) = (SecondPiola(Symmetric::identity()), MaterialTangent(MajorSymmetric::isotropic(1.0, 2.0)));
+    /// let stress = SecondPiola(Symmetric::identity());
+    /// let material: MaterialTangent<f64> = MaterialTangent(MajorSymmetric::isotropic(1.0, 2.0));
     /// let first_piola = material.first_piola(&stress, &bar);
     /// let cauchy = stress.kirchhoff(&bar).cauchy(&bar);
     /// assert_eq!(first_piola.spatial(&cauchy, &bar).0.entry(0, 0, 0, 0), 40.0); // F₁₁⁴ (λ + 2 μ)/J
