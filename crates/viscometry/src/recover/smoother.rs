@@ -44,6 +44,8 @@ pub(super) struct Choice {
     rung: i32,
     parameters: DVector<f64>,
     score: f64,
+    /// The standard deviation of the residuals.
+    noise: f64,
 }
 
 /// Rows and splines.
@@ -56,6 +58,8 @@ pub(super) struct Smoother {
     rows: f64,
     /// The squares within groups.
     within: f64,
+    /// The noise of the rows, known or estimated from their differences.
+    level: f64,
     known: Option<f64>,
     splines: Splines,
     panels: Panels,
@@ -144,6 +148,7 @@ impl Smoother {
             weights,
             rows: u.len() as f64,
             within,
+            level,
             known: is_known.then_some(level),
             splines,
             panels,
@@ -333,12 +338,12 @@ impl Smoother {
         LADDER.map(|rung| (rung, score(rung))).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// The choice of the criterion with this order of the penalty.
-    fn of_order(&self, order: usize) -> Option<Choice> {
+    /// The choice of the criterion with this order of the penalty, found from a rung on.
+    fn of_order(&self, order: usize, first: i32) -> Option<Choice> {
         let penalty = self.penalty(order);
         let scale = self.parameter(0, &penalty);
         let at = |rung: i32| &penalty * (scale * (f64::from(rung) / STEPS).exp());
-        let mut rung = -8;
+        let mut rung = first;
         let mut x = self.descend(&self.start, None, &at(rung), 4);
         for turn in 0..16 {
             let (best, _) = self.best_rung(&x, &penalty, rung, order)?;
@@ -352,14 +357,25 @@ impl Smoother {
         x = self.descend(&x, None, &at(rung), 20);
         let linear = self.linear(&x);
         let freedom = factor(&linear.normal + at(rung))?.solve(&linear.normal).trace();
-        let score = self.score(linear.squares + self.within, freedom);
-        Some(Choice { order, rung, parameters: x, score })
+        let squares = linear.squares + self.within;
+        let score = self.score(squares, freedom);
+        Some(Choice { order, rung, parameters: x, score, noise: (squares / (self.rows - freedom).max(1.0)).sqrt() })
     }
 
-    /// The choice of the criterion.
+    /// The choice of the criterion. Where it leaves more than the rows scatter, the search has ended in a minimum that is not the least: it
+    /// begins again from rougher and smoother curves.
     pub(super) fn choose(&self) -> Option<Choice> {
-        let choices = [1, 2].into_iter().filter_map(|order| self.of_order(order));
-        choices.min_by(|a, b| a.score.total_cmp(&b.score))
+        const FIRST: i32 = -8;
+        const OTHERS: [i32; 3] = [0, -20, -30];
+        /// Residuals over the scatter, at most.
+        const LEFT: f64 = 1.5;
+        let from = |first: i32| [1, 2].into_iter().filter_map(move |order| self.of_order(order, first));
+        let better = |a: &Choice, b: &Choice| a.score.total_cmp(&b.score);
+        let found = from(FIRST).min_by(better);
+        if found.as_ref().is_some_and(|found| found.noise <= LEFT * self.level) {
+            return found;
+        }
+        found.into_iter().chain(OTHERS.into_iter().flat_map(from)).min_by(better)
     }
 
     /// The next rung up, if there is one.
