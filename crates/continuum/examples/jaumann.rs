@@ -1,4 +1,4 @@
-//! What it takes to make the tangent of Jaumann's rate (Abaqus' `DDSDDE`) of P and ∂P/∂F: directly, and by way of ∂S/∂E.
+//! Times and difference of two ways from P and ∂P/∂F to the tangent of Jaumann's rate, Abaqus' `DDSDDE`: directly, and through ∂S/∂E.
 //!
 //! ```sh
 //! cargo build --release -p piola-continuum --example jaumann && taskset -c 1 target/release/examples/jaumann

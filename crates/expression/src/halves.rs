@@ -83,7 +83,7 @@ impl Expression {
         Some(Expression { nodes })
     }
 
-    /// Copies the terms below a node of the sum and returns where the copy stands; nothing where there is none.
+    /// Copies those terms of the sum below `node` that belong to the half, and returns the index of the copy. `None` where no term does.
     fn copy_terms(&self, node: usize, half: usize, to: &mut Vec<Node>) -> Option<usize> {
         let copied = match self.nodes[node] {
             Node::Negative(a) => Node::Negative(self.copy_terms(a, half, to)?),

@@ -16,7 +16,7 @@ use crate::stages::{Kind, MOST, Number, WIDTH, run};
 #[cfg(feature = "rayon")]
 const PARALLEL: usize = 1 << 13;
 
-/// The measures of stress and tangent that a call asks for; `None` for what it does not ask for.
+/// What a call asks for: a measure of stress, a measure of the tangent, or both.
 #[derive(Clone, Copy)]
 pub(crate) struct Wanted {
     pub(crate) stress: Option<StressMeasure>,

@@ -7,8 +7,9 @@
 //! r*(θ) are the residuals of data that the fitted law would have made with the errors e*. The factor c gives e* the mean square s². A test
 //! of few rows draws from the residuals of all tests; so does every test where the means of the tests hold most of S.
 //!
-//! Where neighbouring residuals are correlated, e* are drawn in blocks of as many neighbours as count for one. Blocks of L rows keep
-//! 1 + 2 Σ (1 − j/L) ρʲ of the variance w² of a sum, j < L; e* are multiplied by the root of what is missing.
+//! Where neighbouring residuals are correlated, e* are drawn in blocks of L neighbours, as many as count for one. Correlation ρʲ at the
+//! distance j multiplies the variance of a sum of residuals by w² = (1 + ρ)/(1 − ρ). Blocks keep only v² = 1 + 2 Σ (1 − j/L) ρʲ of it, j < L:
+//! e* are multiplied by w/v.
 //!
 //! The interval is between quantiles of the θ* so far out as Student's t of m − k degrees is on a normal law, because the errors' size is an
 //! estimate too. Where fewer than five samples would lie beyond, the quantiles with five samples beyond are moved away from the median in

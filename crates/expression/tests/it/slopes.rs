@@ -60,7 +60,8 @@ fn slopes(expression: &Expression, point: &[f64]) -> (f64, [f64; 5]) {
     (value, found)
 }
 
-/// Sums of products in another order: some roundings of the largest term, of which a hundred operations may magnify each.
+/// The two derivatives add the same products in different orders. They differ by some roundings of the largest term, and each of the hundred
+/// operations of an expression may magnify these.
 fn close(found: f64, expected: f64, scale: f64) -> bool {
     (found - expected).abs() <= 1e-11 * scale.max(1.0)
 }

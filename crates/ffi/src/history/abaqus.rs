@@ -118,7 +118,8 @@ pub struct Stretching<'a> {
     pub before: &'a [f64],
     /// U after: `stretchNew`.
     pub after: &'a [f64],
-    /// What is added to the diagonal of U after: 1 makes U of small strains, as in the first call of a run.
+    /// This number is added to the diagonal of `after`: 0 where `after` holds stretches U, 1 where it holds strains U − 1, as in the first call
+    /// of a run.
     pub added: f64,
     /// The time that it takes, s.
     pub dt: f64,

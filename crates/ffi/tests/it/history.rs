@@ -1,4 +1,4 @@
-//! Laws with history: by name, by text and by fit; at many points in both layouts; what fails and what is refused.
+//! Laws with history: made by name, from text and from a fit; evaluated at many points in both layouts; failures and refusals.
 
 use piola::continuum::DeformationGradient;
 use piola::inelastic::{AnyInelastic, StepControl};

@@ -330,7 +330,7 @@ fn thermal_strains_follow_the_temperatures_of_abaqus() {
     }
 }
 
-/// Points that fail in several blocks are counted together; what is not finite is refused before a block is written.
+/// The message counts the failed points of all blocks. Numbers that are not finite are refused before any block is written.
 #[test]
 fn vumat_counts_failures_of_all_blocks_and_refuses_before_it_writes() {
     const POINTS: usize = 200;
