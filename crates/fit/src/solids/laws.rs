@@ -263,6 +263,13 @@ impl From<AnyModel> for String {
     }
 }
 
+/// A law in a function of its own. In numbers with derivatives each law has hundreds of loops; the compiler takes ten times as long for the loops of
+/// all laws in one function.
+#[inline(never)]
+fn apart<T>(law: impl FnOnce() -> T) -> T {
+    law()
+}
+
 impl Model for AnyModel {
     fn name(&self) -> String {
         self.to_string()
@@ -318,34 +325,38 @@ impl Model for AnyModel {
             Self::NeoHookean => internal::neo_hookean(parameters[0], first),
             Self::MooneyRivlin => internal::mooney_rivlin([parameters[0], parameters[1]], first, second()),
             Self::Yeoh => internal::yeoh([parameters[0], parameters[1], parameters[2]], first),
-            Self::Gent => internal::gent(parameters[0], parameters[1], first),
-            Self::ArrudaBoyce => internal::arruda_boyce(parameters[0], parameters[1], first),
-            Self::Carroll => rubber::internal::carroll([parameters[0], parameters[1], parameters[2]], first, second()),
-            Self::LopezPamies => {
-                rubber::internal::lopez_pamies_term(parameters[0], parameters[1], first)
-                    + rubber::internal::lopez_pamies_term(parameters[2], parameters[3], first)
+            Self::Gent => apart(|| internal::gent(parameters[0], parameters[1], first)),
+            Self::ArrudaBoyce => apart(|| internal::arruda_boyce(parameters[0], parameters[1], first)),
+            Self::Carroll => {
+                apart(|| rubber::internal::carroll([parameters[0], parameters[1], parameters[2]], first, second()))
             }
-            Self::VanDerWaals => {
+            Self::LopezPamies => {
+                let term = |at: usize| {
+                    apart(|| rubber::internal::lopez_pamies_term(parameters[at], parameters[at + 1], first))
+                };
+                term(0) + term(2)
+            }
+            Self::VanDerWaals => apart(|| {
                 let four = [parameters[0], parameters[1], parameters[2], parameters[3]];
                 rubber::internal::van_der_waals(four, first, second())
-            }
+            }),
             Self::ExtendedTube => {
-                let [a, b, c] = stretches.map(|x| rubber::internal::tube(parameters[2], parameters[3], x.ln()));
-                rubber::internal::crosslinked_network(parameters[0], parameters[1], first) + (a + b + c)
+                let [a, b, c] = stretches.map(|x| apart(|| rubber::internal::tube(parameters[2], parameters[3], x.ln())));
+                apart(|| rubber::internal::crosslinked_network(parameters[0], parameters[1], first)) + (a + b + c)
             }
             Self::Polynomial(series) => {
                 let second = second();
                 let mut energy = T::zero();
                 for (powers, factor) in series.powers().zip(parameters) {
-                    energy += internal::rivlin_term(*factor, powers, first, second);
+                    energy += apart(|| internal::rivlin_term(*factor, powers, first, second));
                 }
                 energy
             }
             Self::Ogden(_) => {
-                let logarithms = stretches.map(Real::ln);
+                let logarithms = stretches.map(|x| apart(|| x.ln()));
                 let mut energy = T::zero();
                 for term in parameters.chunks_exact(2) {
-                    let [a, b, c] = logarithms.map(|x| internal::ogden_term(term[0], term[1], x));
+                    let [a, b, c] = logarithms.map(|x| apart(|| internal::ogden_term(term[0], term[1], x)));
                     energy += a + b + c;
                 }
                 energy

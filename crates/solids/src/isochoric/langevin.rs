@@ -32,6 +32,17 @@ pub fn langevin<T: Real>(beta: T) -> T {
 /// ℒ(β)/β and ℒ′(β).
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn ratio_and_slope<T: Real>(beta: T) -> (T, T) {
+    if T::ORDER == 0 { inlined(beta) } else { apart(beta) }
+}
+
+/// With derivatives the fraction is long: it is compiled once for each scalar, not at each of the dozen calls of a law.
+#[inline(never)]
+fn apart<T: Real>(beta: T) -> (T, T) {
+    inlined(beta)
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn inlined<T: Real>(beta: T) -> (T, T) {
     let (one, two) = (T::one(), T::lit(2.0));
     let small = beta.abs().at_most(T::lit(SMALL));
     let mut far = (one, one);
