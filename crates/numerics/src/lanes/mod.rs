@@ -172,7 +172,8 @@ macro_rules! each_lane {
 }
 
 /// As [`each_lane`], the first sixteen lanes written out: for single operations. A kernel is thousands of them, and as
-/// loops within a loop over points they would cost the compiler minutes.
+/// loops within a loop over points they would cost the compiler minutes. A condition that is an inline constant is decided before machine
+/// code is made: statements of lanes that are not there cost nothing.
 macro_rules! every_lane {
     ($i:ident in $start:expr => $value:expr) => {{
         let mut result = $start;
@@ -188,7 +189,7 @@ macro_rules! every_lane {
         }
     }};
     (@written $i:ident, $statement:expr, $($lane:literal)*) => {
-        $(if $lane < N {
+        $(if const { $lane < N } {
             let $i = $lane;
             $statement;
         })*
