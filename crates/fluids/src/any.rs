@@ -178,48 +178,61 @@ any_fluid! {
     }
 }
 
+/// A choice in a function of its own, compiled once for a scalar: a flow asks in dozens of places, and all fluids would stand in each. In
+/// lanes it is inlined, for the instructions of its caller.
+#[inline(never)]
+fn apart<R>(choice: impl FnOnce() -> R) -> R {
+    choice()
+}
+
+macro_rules! once {
+    ($scalar:ty: $choice:expr) => {
+        if const { <$scalar as Real>::LANES == 1 } { apart(|| $choice) } else { $choice }
+    };
+}
+
 impl ViscometricFluid for AnyFluid {
     const NAME: &'static str = "fluid";
     const NORMAL_STRESSES: bool = true;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
-        chosen!(self, fluid => fluid.shear_stress(shear_rate))
+        once!(T: chosen!(self, fluid => fluid.shear_stress(shear_rate)))
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma1<T: Real>(&self, shear_rate: T) -> T {
-        chosen!(self, fluid => fluid.sigma1(shear_rate))
+        once!(T: chosen!(self, fluid => fluid.sigma1(shear_rate)))
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma2<T: Real>(&self, shear_rate: T) -> T {
-        chosen!(self, fluid => fluid.sigma2(shear_rate))
+        once!(T: chosen!(self, fluid => fluid.sigma2(shear_rate)))
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_normal_stress_difference<T: Real>(&self, shear_rate: T) -> T {
-        chosen!(self, fluid => fluid.first_normal_stress_difference(shear_rate))
+        once!(T: chosen!(self, fluid => fluid.first_normal_stress_difference(shear_rate)))
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn second_normal_stress_difference<T: Real>(&self, shear_rate: T) -> T {
-        chosen!(self, fluid => fluid.second_normal_stress_difference(shear_rate))
+        once!(T: chosen!(self, fluid => fluid.second_normal_stress_difference(shear_rate)))
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn yield_stress(&self) -> f64 {
-        chosen!(self, fluid => ViscometricFluid::yield_stress(fluid))
+        once!(f64: chosen!(self, fluid => ViscometricFluid::yield_stress(fluid)))
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn viscosity<T: Real>(&self, shear_rate: T) -> T {
-        chosen!(self, fluid => fluid.viscosity(shear_rate))
+        once!(T: chosen!(self, fluid => fluid.viscosity(shear_rate)))
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
-        chosen!(self, fluid => fluid.shear_rate(shear_stress))
+        once!(T: chosen!(self, fluid => fluid.shear_rate(shear_stress)))
     }
 
     fn flow_moment(&self, moment: FlowMoment, from: f64, to: f64) -> Option<f64> {
