@@ -15,7 +15,7 @@ use super::paths::{bergstrom_boyce, driven_growth, kinematic, mullins, reese_gov
 type Fallible = Result<(), Box<dyn Error>>;
 
 /// A path of random deformations with stretches between 0.75 and 1.35.
-fn path(seed: u64, count: usize) -> Vec<DeformationGradient> {
+pub(crate) fn path(seed: u64, count: usize) -> Vec<DeformationGradient> {
     let mut random = Random::new(seed);
     let one = |random: &mut Random| {
         let stretches = core::array::from_fn(|_| (0.3 * random.symmetric()).exp());

@@ -64,7 +64,10 @@ fn consistent_tangents_equal_difference_quotients_of_the_stress() -> Fallible {
     check_tangent("viscoplastic", &viscoplastic(0.5)?, &one)?;
     check_tangent("plastic", &viscoplastic(0.0)?, &one)?;
     check_tangent("kinematic, viscous", &kinematic(0.5)?, &one)?;
-    check_tangent("kinematic", &kinematic(0.0)?, &one)
+    check_tangent("kinematic", &kinematic(0.0)?, &one)?;
+    // The first increment begins to flow inside.
+    check_tangent("plastic, extrapolated", &viscoplastic(0.0)?, &controlled)?;
+    check_tangent("kinematic, extrapolated", &kinematic(0.0)?, &controlled)
 }
 
 /// Residuals of the free sides of a bar that is pulled, iteration by iteration.
