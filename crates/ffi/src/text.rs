@@ -112,7 +112,11 @@ pub fn solid_from_fit(
     model: Option<&str>,
     volumetric: Option<AnyVolumetric>,
 ) -> Result<AnySolid, FfiError> {
-    let entry = Entry::of(text, model)?;
+    solid_of(Entry::of(text, model)?, volumetric)
+}
+
+/// The law of an entry of a fit.
+pub(crate) fn solid_of(entry: Entry, volumetric: Option<AnyVolumetric>) -> Result<AnySolid, FfiError> {
     let model: AnyModel = entry.model.parse()?;
     let values: Vec<f64> = entry.parameters.iter().map(|(_, value)| *value).collect();
     let law = match volumetric {
