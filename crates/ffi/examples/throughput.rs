@@ -1,6 +1,8 @@
 //! Nanoseconds a point of a law at many points, as C, Fortran and Python call it: the figures beside those of
 //! `crates/python/tests/throughput.py`, on one thread.
 
+#![expect(clippy::print_stdout, reason = "a table for the page of measurements")]
+
 use std::hint::black_box;
 use std::time::Instant;
 

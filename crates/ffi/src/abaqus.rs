@@ -113,7 +113,7 @@ pub fn umat(
 }
 
 /// Points of a block.
-pub(crate) const BLOCK: usize = 128;
+pub(crate) const BLOCK: usize = 64;
 
 /// An increment of many points for VUMAT.
 ///
