@@ -13,8 +13,9 @@
 //! gives: there any number counts, zero too. An elastic law uses the deformation after alone, and leaves the state as it is.
 
 use crate::FfiError;
+use crate::blocks::BLOCK;
 use crate::error::{Failures, check_finite, check_length};
-use crate::materials::Material;
+use crate::materials::MaterialLaw;
 use crate::points::{StressMeasure, TangentMeasure, VoigtNumbering, stress, stress_and_tangent};
 
 /// Refuses components other than those of solid elements: 3 and 3, and 3 and 1 of plane strain and axial symmetry.
@@ -70,7 +71,7 @@ pub struct PointIncrement<'a> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn umat(
-    material: &Material,
+    material: &MaterialLaw,
     components: [usize; 2],
     increment: PointIncrement<'_>,
     state: &mut [f64],
@@ -90,12 +91,12 @@ pub fn umat(
     let [from, to] = increment.f.map(|f| by_rows(*f));
     let (mut whole, mut tangent) = ([[0.0; 9]], [0.0; 36]);
     match material {
-        Material::Elastic(law) => {
+        MaterialLaw::Elastic(law) => {
             let measures = (StressMeasure::Cauchy, TangentMeasure::Jaumann);
             stress_and_tangent(law, measures, VoigtNumbering::Abaqus, &to, (&mut whole, &mut tangent))?;
         }
         #[cfg(feature = "history")]
-        Material::History(law) => {
+        MaterialLaw::History(law) => {
             let PointIncrement { dt, temperature, .. } = increment;
             crate::history::abaqus::point(law, [&from, &to], (dt, temperature), state, &mut whole, &mut tangent)?;
         }
@@ -111,9 +112,6 @@ pub fn umat(
     }
     Ok(())
 }
-
-/// Points of a block.
-pub(crate) const BLOCK: usize = 64;
 
 /// An increment of many points for VUMAT.
 ///
@@ -166,7 +164,7 @@ pub struct Stretching<'a> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn vumat(
-    material: &Material,
+    material: &MaterialLaw,
     components: [usize; 2],
     stretching: Stretching<'_>,
     (old, new): (&[f64], &mut [f64]),
@@ -213,9 +211,9 @@ pub fn vumat(
         failures.note(
             start,
             match material {
-                Material::Elastic(law) => stress(law, StressMeasure::Cauchy, to, whole),
+                MaterialLaw::Elastic(law) => stress(law, StressMeasure::Cauchy, to, whole),
                 #[cfg(feature = "history")]
-                Material::History(law) => {
+                MaterialLaw::History(law) => {
                     let increment =
                         crate::history::DeformationIncrement { from, to, dt: stretching.dt, tolerance: None };
                     crate::history::abaqus::block(law, increment, (start, points), temperatures, (old, new), whole)
@@ -230,7 +228,7 @@ pub fn vumat(
             }
         }
     }
-    if matches!(material, Material::Elastic(_)) {
+    if matches!(material, MaterialLaw::Elastic(_)) {
         new.copy_from_slice(old);
     }
     failures.finish(points)

@@ -25,8 +25,8 @@ const KEPT: usize = 64;
 /// # Example
 /// ```
 /// use piola::solids::{AnySolid, SaintVenantKirchhoff};
-/// use piola_ffi::materials::{Material, material};
-/// let law = Material::from(AnySolid::from(SaintVenantKirchhoff::new(1.0, 2.0)?));
+/// use piola_ffi::materials::{MaterialLaw, material};
+/// let law = MaterialLaw::from(AnySolid::from(SaintVenantKirchhoff::new(1.0, 2.0)?));
 /// assert_eq!(*material("SAINT_VENANT_KIRCHHOFF", &[1.0, 2.0])?, law);
 /// assert_eq!(law.state_length(), None);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -34,7 +34,7 @@ const KEPT: usize = 64;
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "one a material")]
 #[non_exhaustive]
-pub enum Material {
+pub enum MaterialLaw {
     /// Elastic.
     Elastic(AnySolid),
     /// With history.
@@ -42,20 +42,20 @@ pub enum Material {
     History(AnyInelastic),
 }
 
-impl From<AnySolid> for Material {
+impl From<AnySolid> for MaterialLaw {
     fn from(law: AnySolid) -> Self {
         Self::Elastic(law)
     }
 }
 
 #[cfg(feature = "history")]
-impl From<AnyInelastic> for Material {
+impl From<AnyInelastic> for MaterialLaw {
     fn from(law: AnyInelastic) -> Self {
         Self::History(law)
     }
 }
 
-impl Material {
+impl MaterialLaw {
     /// The number of internal variables; none of an elastic law, which leaves a state of any length alone.
     #[must_use]
     pub const fn state_length(&self) -> Option<usize> {
@@ -71,7 +71,7 @@ impl Material {
 struct Named {
     name: String,
     properties: Vec<f64>,
-    law: Rc<Material>,
+    law: Rc<MaterialLaw>,
 }
 
 impl Named {
@@ -95,7 +95,7 @@ thread_local! {
 
 impl Kept {
     /// The law of a material, made where it is not here yet.
-    fn get(&mut self, name: &str, properties: &[f64]) -> Result<Rc<Material>, FfiError> {
+    fn get(&mut self, name: &str, properties: &[f64]) -> Result<Rc<MaterialLaw>, FfiError> {
         if let Some(found) = self.materials.iter().find(|material| material.is(name, properties)) {
             return Ok(Rc::clone(&found.law));
         }
@@ -131,16 +131,16 @@ impl Kept {
 ///
 /// # Errors
 /// As [`named::solid`] and `named::history`; [`FfiError::NoMaterial`]; an unreadable or invalid file.
-pub fn material(name: &str, properties: &[f64]) -> Result<Rc<Material>, FfiError> {
+pub fn material(name: &str, properties: &[f64]) -> Result<Rc<MaterialLaw>, FfiError> {
     MATERIALS.with_borrow_mut(|kept| kept.get(name, properties))
 }
 
-fn made(name: &str, properties: &[f64]) -> Result<Material, FfiError> {
+fn made(name: &str, properties: &[f64]) -> Result<MaterialLaw, FfiError> {
     #[cfg(feature = "history")]
     if is_history(name) {
-        return named::history(name, properties).map(Material::History);
+        return named::history(name, properties).map(MaterialLaw::History);
     }
-    if named::is_law(name) { named::solid(name, properties).map(Material::Elastic) } else { from_file(name) }
+    if named::is_law(name) { named::solid(name, properties).map(MaterialLaw::Elastic) } else { from_file(name) }
 }
 
 /// The number of internal variables of a material, NSTATV of Abaqus, whatever its properties are: 0 of an elastic law.
@@ -197,7 +197,7 @@ impl<'a> Fit<'a> {
 }
 
 /// The law of a material's file.
-fn from_file(name: &str) -> Result<Material, FfiError> {
+fn from_file(name: &str) -> Result<MaterialLaw, FfiError> {
     let text = read(name, &format!("{}.json", name.to_ascii_lowercase()))?;
     let value: Value = serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
     if let Some(Fit { summary, model, volumetric }) = Fit::of(&value)? {
@@ -208,21 +208,21 @@ fn from_file(name: &str) -> Result<Material, FfiError> {
     }
     #[cfg(feature = "history")]
     if value["law"].as_str().is_some_and(is_history) {
-        return history_text::history_from_value(value).map(Material::History);
+        return history_text::history_from_value(value).map(MaterialLaw::History);
     }
-    solid_from_value(value).map(Material::Elastic)
+    solid_from_value(value).map(MaterialLaw::Elastic)
 }
 
 /// The law of an entry of a fit.
-fn of_fit(entry: Entry, volumetric: Option<&Value>) -> Result<Material, FfiError> {
+fn of_fit(entry: Entry, volumetric: Option<&Value>) -> Result<MaterialLaw, FfiError> {
     #[cfg(feature = "history")]
     if history_text::FITTED.contains(&entry.model.as_str()) {
         return match volumetric {
-            None => history_text::history_of(&entry).map(Material::History),
+            None => history_text::history_of(&entry).map(MaterialLaw::History),
             Some(_) => {
                 Err(wrong(format!("`volumetric` is of elastic laws; `{}` has its own change of volume", entry.model)))
             }
         };
     }
-    solid_of(entry, volumetric.cloned().map(volumetric_from_value).transpose()?).map(Material::Elastic)
+    solid_of(entry, volumetric.cloned().map(volumetric_from_value).transpose()?).map(MaterialLaw::Elastic)
 }

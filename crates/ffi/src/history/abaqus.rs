@@ -4,7 +4,7 @@ use piola::inelastic::{AnyInelastic, MOST_STATE};
 
 use super::{DeformationIncrement, StateLayout, States, advance};
 use crate::FfiError;
-use crate::abaqus::BLOCK;
+use crate::blocks::BLOCK;
 use crate::points::{StressMeasure, TangentMeasure, VoigtNumbering};
 
 /// The state with which an increment begins: the temperature of `thermal`, and of the body as it was made in the place of zeros alone.

@@ -8,7 +8,7 @@ use piola::solids::{AnySolid, Hyperelastic};
 use piola::tensor::voigt::{Abaqus, StiffnessMatrix, StressVector};
 use piola_ffi::FfiError;
 use piola_ffi::abaqus::{PointIncrement, Stretching, umat, vumat};
-use piola_ffi::materials::{Material, material};
+use piola_ffi::materials::{MaterialLaw, material};
 use piola_testkit::{Tol, assert_each_close_at_scales};
 use proptest::prelude::*;
 
@@ -35,7 +35,7 @@ pub(crate) fn umat_of(
 }
 
 /// VUMAT of a law without a state, in solid elements.
-fn vumat_of(law: &Material, after: &[f64], added: f64, stresses: &mut [f64]) -> Result<(), FfiError> {
+fn vumat_of(law: &MaterialLaw, after: &[f64], added: f64, stresses: &mut [f64]) -> Result<(), FfiError> {
     let stretching = Stretching { before: &[], after, added, dt: 1.0, temperatures: &[] };
     vumat(law, [3, 3], stretching, (&[], &mut []), stresses)
 }
