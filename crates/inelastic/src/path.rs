@@ -209,11 +209,13 @@ impl<L, const S: usize> Increment<'_, L, S> {
     {
         let mut effort = Effort { parts: 0, steps: 0, iterations: 0, error: 0.0 };
         let mut reached = Reached { share: 0.0, state: state.map(T::lit) };
-        let mut width = 1.0;
+        let (mut width, mut alignments) = (1.0, 0);
         while reached.share < 1.0 {
             width = f64::min(width, 1.0 - reached.share);
-            if X != 0 && self.control.tolerance.is_some() {
+            if X != 0 && self.control.tolerance.is_some() && alignments < MOST_ALIGNMENTS {
+                let before = width;
                 let share = self.aligned::<X>(&values(&reached.state), reached.share, &mut width);
+                alignments += usize::from(reached.share < share || width < before);
                 if reached.share < share {
                     reached.share = share;
                     continue;
@@ -253,5 +255,7 @@ const BESIDE: f64 = 1e-12;
 const SHORTEST_FLOW: f64 = 1e-7;
 /// Shares of a part at which the body is asked whether it flows.
 const SAMPLES: usize = 8;
+/// How often flow may begin or end in an increment. A load that neither loads nor unloads a flowing body begins and ends it by rounding.
+const MOST_ALIGNMENTS: usize = 8;
 /// Halvings that find the beginning of flow to rounding.
 const HALVINGS: usize = 50;
