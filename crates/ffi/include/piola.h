@@ -243,24 +243,35 @@ PiolaStatus piola_couette_moment(const PiolaFluid *fluid,
                                  double *value,
                                  double *error);
 
-// STRESS and DDSDDE of Abaqus at one point; see `fortran/umat.f`.
+// STRESS, DDSDDE and STATEV of Abaqus at one point; see `fortran/umat.f`.
 //
 // `name` has `name_length` characters: a law with its parameters in `properties`, or the name of a file in the folder
-// `PIOLA_MATERIALS`. `f` is DFGRD1, nine numbers by columns. `stress` gets NTENS = `direct` + `shear` numbers, `tangent` NTENS^2.
+// `PIOLA_MATERIALS`. `from` and `to` are DFGRD0 and DFGRD1, nine numbers by columns; `dt` is DTIME. `temperature` is that at the end,
+// TEMP + DTEMP; the law `thermal` takes it in the place of its state, and no other law uses it. `state` has `state_length` numbers, zeros for
+// the body as it was made; an elastic law leaves any state alone. `stress` gets NTENS = `direct` + `shear` numbers, `tangent` NTENS^2 by
+// columns.
 PiolaStatus piola_umat(const char *name,
                        size_t name_length,
                        const double *properties,
                        size_t properties_length,
                        size_t direct,
                        size_t shear,
-                       const double *f,
+                       const double *from,
+                       const double *to,
+                       double dt,
+                       double temperature,
+                       double *state,
+                       size_t state_length,
                        double *stress,
                        double *tangent);
 
-// Corotated stresses of Abaqus/Explicit; see `fortran/vumat.f`.
+// Corotated stresses and states of Abaqus/Explicit; see `fortran/vumat.f`. No tangent is computed.
 //
-// `stretches` has n (`direct` + `shear`) numbers, each component an array: 11, 22, 33, 12, 23, 13. `added` is added to the
-// diagonal: 0 for stretches, 1 for small strains. `stresses` gets as many numbers in the same order.
+// `before` and `after` have n (`direct` + `shear`) numbers, each component an array: 11, 22, 33, 12, 23, 13; with a null pointer
+// the body is undeformed before. `added` is added to the diagonal of `after`: 0 for stretches, 1 for small strains. `temperatures` has n
+// numbers, tempNew, which the law `thermal` takes in the place of its states; with none of them these stay as they are. `old` and `new_states`
+// have n `state_length` numbers, each variable an array; a state of zeros is that of the body as it was made, and states of elastic laws are
+// copied. `stresses` gets as many numbers as `after` has. Outputs that overlap inputs or one another are refused.
 PiolaStatus piola_vumat(const char *name,
                         size_t name_length,
                         const double *properties,
@@ -268,8 +279,15 @@ PiolaStatus piola_vumat(const char *name,
                         size_t points,
                         size_t direct,
                         size_t shear,
-                        const double *stretches,
+                        const double *before,
+                        const double *after,
                         double added,
+                        double dt,
+                        const double *temperatures,
+                        size_t temperatures_length,
+                        const double *old,
+                        double *new_states,
+                        size_t state_length,
                         double *stresses);
 
 #if defined(PIOLA_HISTORY)
@@ -317,7 +335,7 @@ PiolaStatus piola_history_state_length(const PiolaHistory *history, size_t *leng
 
 #if defined(PIOLA_HISTORY)
 // The number of internal variables of the law with this name, NSTATV of Abaqus: that of a law, such as `kinematic-hencky-lame-hencky-lame`,
-// or of a file in the folder `PIOLA_MATERIALS`.
+// or of a file in the folder `PIOLA_MATERIALS`; 0 of an elastic law.
 PiolaStatus piola_history_state_length_of(const char *name,
                                           size_t *length);
 #endif
@@ -336,7 +354,7 @@ PiolaStatus piola_history_initial_states(const PiolaHistory *history,
 // `stress` is a `PiolaStress`, `tangent` a `PiolaTangent`, `voigt` a `PiolaVoigt`, `layout` a `PiolaLayout`. The deformation gradients
 // `from` and `to`, 9 n numbers by rows, are those at the start and the end; the increment takes `dt` s. `tolerance` bounds the estimated
 // error of the internal variables; with 0 the increment is one implicit step. `before` and `after` have n states. Outputs that overlap
-// inputs or one another are refused: `after` is other memory than `before`. `tangents` may be a null pointer with the length 0; otherwise it gets 81 or 36 numbers a point, by rows, which lack the
+// inputs or one another are refused: `after` is other memory than `before`. `tangents` may be a null pointer with the length 0: no tangent is then computed; otherwise it gets 81 or 36 numbers a point, by rows, which lack the
 // major symmetry in general.
 //
 // After `PIOLA_STATUS_BAD_POINTS` stresses and tangents of the points that failed are NaN and their new states those before; the message
@@ -358,57 +376,6 @@ PiolaStatus piola_history_advance(const PiolaHistory *history,
                                   size_t stresses_length,
                                   double *tangents,
                                   size_t tangents_length);
-#endif
-
-#if defined(PIOLA_HISTORY)
-// STRESS, DDSDDE and STATEV of Abaqus at one point of a law with history; see `fortran/umat_history.f`.
-//
-// `name` has `name_length` characters: a law with its parameters in `properties`, or the name of a file in the folder
-// `PIOLA_MATERIALS`. `from` and `to` are DFGRD0 and DFGRD1, nine numbers by columns. `temperature` is that at the end, TEMP + DTEMP; the
-// law `thermal` takes it in the place of its state, and no other law uses it. `state` has `state_length` numbers, zeros for the body as it
-// was made. `stress` gets NTENS = `direct` + `shear` numbers, `tangent` NTENS^2 by columns.
-PiolaStatus piola_history_umat(const char *name,
-                               size_t name_length,
-                               const double *properties,
-                               size_t properties_length,
-                               size_t direct,
-                               size_t shear,
-                               const double *from,
-                               const double *to,
-                               double dt,
-                               double temperature,
-                               double *state,
-                               size_t state_length,
-                               double *stress,
-                               double *tangent);
-#endif
-
-#if defined(PIOLA_HISTORY)
-// Corotated stresses and states of Abaqus/Explicit of a law with history; see `fortran/vumat_history.f`.
-//
-// `before` and `after` have n (`direct` + `shear`) numbers, each component an array: 11, 22, 33, 12, 23, 13; with a null pointer
-// the body is undeformed before. `added` is added to the diagonal of `after`: 0 for stretches, 1 for small strains. `temperatures` has n
-// numbers, tempNew, which the law `thermal` takes in the place of its states; with none of them these stay as they are. `old` and `new_states`
-// have n `state_length` numbers, each variable an array; a state of zeros is that of the body as it was made. `stresses` gets as many
-// numbers as `after` has. Outputs that overlap
-// inputs or one another are refused.
-PiolaStatus piola_history_vumat(const char *name,
-                                size_t name_length,
-                                const double *properties,
-                                size_t properties_length,
-                                size_t points,
-                                size_t direct,
-                                size_t shear,
-                                const double *before,
-                                const double *after,
-                                double added,
-                                double dt,
-                                const double *temperatures,
-                                size_t temperatures_length,
-                                const double *old,
-                                double *new_states,
-                                size_t state_length,
-                                double *stresses);
 #endif
 
 #ifdef __cplusplus

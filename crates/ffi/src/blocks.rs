@@ -4,6 +4,9 @@ use piola::numerics::{LaneKernel, Lanes, dispatch_lanes};
 
 use crate::stages::{Number, WIDTH};
 
+/// Points that VUMAT takes together.
+pub(crate) const BLOCK: usize = 64;
+
 /// F of points to blocks; places of the last block that hold no point get F = 1.
 pub(crate) fn to_blocks(points: &[[f64; 9]], blocks: &mut [[Number; 9]]) {
     if let Some(last) = blocks.last_mut() {

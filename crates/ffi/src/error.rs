@@ -184,3 +184,78 @@ pub(crate) fn check_finite(quantity: &'static str, numbers: &[f64]) -> Result<()
 pub(crate) fn check_length(quantity: &'static str, expected: usize, found: usize) -> Result<(), FfiError> {
     if found == expected { Ok(()) } else { Err(FfiError::WrongLength { quantity, expected, found }) }
 }
+
+/// Points that failed: how many, and the first of them with its error.
+pub(crate) struct Bad<E> {
+    pub(crate) count: usize,
+    pub(crate) first: Option<(usize, E)>,
+}
+
+impl<E> Default for Bad<E> {
+    fn default() -> Self {
+        Self { count: 0, first: None }
+    }
+}
+
+impl<E> Bad<E> {
+    /// Notes a point; points are noted in order.
+    pub(crate) fn note(&mut self, index: usize, error: E) {
+        self.count += 1;
+        self.first.get_or_insert((index, error));
+    }
+
+    /// With those of later points.
+    #[cfg(feature = "rayon")]
+    pub(crate) fn and(self, later: Self) -> Self {
+        Self { count: self.count + later.count, first: self.first.or(later.first) }
+    }
+
+    /// An error where there is such a point, of their number, the first and its error.
+    pub(crate) fn finish(self, error: impl FnOnce(usize, usize, E) -> FfiError) -> Result<(), FfiError> {
+        let Self { count, first } = self;
+        first.map_or(Ok(()), |(index, reason)| Err(error(count, index, reason)))
+    }
+}
+
+/// Points that failed in the blocks of a batch: how many, and the error of the first block that has one.
+#[derive(Default)]
+pub(crate) struct Failures {
+    bad: usize,
+    first: Option<FfiError>,
+}
+
+impl Failures {
+    /// Notes the result of a block that begins with point `start`.
+    ///
+    /// # Errors
+    /// Those of the block, unless some points failed.
+    pub(crate) fn note(&mut self, start: usize, result: Result<(), FfiError>) -> Result<(), FfiError> {
+        let Err(mut error) = result else { return Ok(()) };
+        match &mut error {
+            FfiError::BadPoints { bad, index, .. } => {
+                self.bad += *bad;
+                *index += start;
+            }
+            #[cfg(feature = "history")]
+            FfiError::BadIncrements { bad, index, .. } => {
+                self.bad += *bad;
+                *index += start;
+            }
+            _ => return Err(error),
+        }
+        self.first.get_or_insert(error);
+        Ok(())
+    }
+
+    /// The error of the first block, with the numbers of all.
+    pub(crate) fn finish(self, points: usize) -> Result<(), FfiError> {
+        let Some(mut error) = self.first else { return Ok(()) };
+        match &mut error {
+            FfiError::BadPoints { bad, count, .. } => (*bad, *count) = (self.bad, points),
+            #[cfg(feature = "history")]
+            FfiError::BadIncrements { bad, count, .. } => (*bad, *count) = (self.bad, points),
+            _ => {}
+        }
+        Err(error)
+    }
+}

@@ -42,32 +42,12 @@ impl Part<'_> {
     }
 }
 
-/// Points that were refused: how many, and the first of them.
-#[derive(Default)]
-pub(crate) struct Bad {
-    count: usize,
-    first: Option<(usize, SolidsError)>,
-}
+/// Points that were refused.
+pub(crate) type Bad = crate::error::Bad<SolidsError>;
 
-impl Bad {
-    /// Notes a point; points are noted in order.
-    pub(crate) fn note(&mut self, index: usize, error: SolidsError) {
-        self.count += 1;
-        self.first.get_or_insert((index, error));
-    }
-
-    /// With those of later points.
-    #[cfg(feature = "rayon")]
-    fn and(self, later: Self) -> Self {
-        Self { count: self.count + later.count, first: self.first.or(later.first) }
-    }
-
-    pub(crate) fn finish(self, count: usize) -> Result<(), FfiError> {
-        match self.first {
-            None => Ok(()),
-            Some((index, error)) => Err(FfiError::BadPoints { bad: self.count, count, index, error }),
-        }
-    }
+/// The error of a batch of `count` points.
+pub(crate) fn finished(bad: Bad, count: usize) -> Result<(), FfiError> {
+    bad.finish(|bad, index, error| FfiError::BadPoints { bad, count, index, error })
 }
 
 /// F of a point, if it is one and the law has an answer there.
@@ -133,7 +113,7 @@ impl<'a> Evaluation<'a> {
     /// Computes the numbers of all points.
     pub(crate) fn run(&self, part: Part<'_>) -> Result<(), FfiError> {
         let count = part.f.len();
-        self.divided(part).finish(count)
+        finished(self.divided(part), count)
     }
 
     #[cfg(feature = "rayon")]

@@ -282,22 +282,13 @@ impl Resolved {
             Some((place, name)) => part.is_some_and(|part| part.name() == place) && slot.name() == name,
             None => slot.name() == name,
         };
-        let mut given = Vec::new();
-        for slot in self.slots() {
-            if !matches!(slot.0, Number(_)) {
-                return Err(wrong(slot.0.name(), "is not one number: give all in their order"));
-            }
-            let mut found = names.iter().zip(values).filter(|(name, _)| is_of(slot, name));
-            let (_, value) = found.next().ok_or_else(|| wrong(slot.0.name(), "is missing"))?;
-            if found.next().is_some() {
-                return Err(wrong(slot.0.name(), "is given twice"));
-            }
-            given.push(Value::from(*value));
+        if let Some((slot, _)) = self.slots().find(|(slot, _)| !matches!(slot, Number(_))) {
+            return Err(wrong(slot.name(), "is not one number: give all in their order"));
         }
-        if let Some(name) = names.iter().find(|name| !self.slots().any(|slot| is_of(slot, name))) {
-            return Err(wrong(name, "is unknown"));
-        }
-        solid_from_value(self.build(given))
+        let slots: Vec<_> = self.slots().collect();
+        let own: Vec<&str> = slots.iter().map(|(slot, _)| slot.name()).collect();
+        let values = in_order(&own, |k, name| is_of(slots[k], name), names, values, wrong)?;
+        solid_from_value(self.build(values.into_iter().map(Value::from).collect()))
     }
 
     /// The law in its written form.
@@ -321,6 +312,29 @@ impl Resolved {
 
 #[cfg(feature = "history")]
 pub use crate::history::named::{history, history_with_names, state_length};
+
+/// The values of parameters in their order, each found by its name: one that is missing, given twice or unknown is `wrong`.
+pub(crate) fn in_order(
+    own: &[&str],
+    is_of: impl Fn(usize, &str) -> bool,
+    names: &[&str],
+    values: &[f64],
+    wrong: impl Fn(&str, &'static str) -> FfiError,
+) -> Result<Vec<f64>, FfiError> {
+    let mut ordered = Vec::with_capacity(own.len());
+    for (number, own) in own.iter().enumerate() {
+        let mut found = names.iter().zip(values).filter(|(name, _)| is_of(number, name));
+        let (_, value) = found.next().ok_or_else(|| wrong(own, "is missing"))?;
+        if found.next().is_some() {
+            return Err(wrong(own, "is given twice"));
+        }
+        ordered.push(*value);
+    }
+    match names.iter().find(|name| !(0..own.len()).any(|number| is_of(number, name))) {
+        Some(unknown) => Err(wrong(unknown, "is unknown")),
+        None => Ok(ordered),
+    }
+}
 
 /// A term of an Ogden law.
 fn term(pair: &[f64]) -> Value {

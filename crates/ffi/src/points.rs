@@ -22,7 +22,7 @@ use piola::solids::{AnySolid, Hyperelastic, SolidsError};
 
 use crate::FfiError;
 use crate::error::check_length;
-use crate::evaluation::{Bad, Evaluation, Part, Wanted, deformation};
+use crate::evaluation::{Bad, Evaluation, Part, Wanted, deformation, finished};
 pub use crate::measures::{StressMeasure, TangentMeasure, VoigtNumbering};
 
 /// The stress at each point, nine components by rows. Of a law of linear elasticity it is σ in every measure.
@@ -77,7 +77,7 @@ pub fn energy(law: &AnySolid, f: &[[f64; 9]], out: &mut [f64]) -> Result<(), Ffi
             f64::NAN
         });
     }
-    bad.finish(f.len())
+    finished(bad, f.len())
 }
 
 fn energy_at(law: &AnySolid, f: &[f64; 9]) -> Result<f64, SolidsError> {

@@ -3,6 +3,7 @@
 use piola::fit::solids::AnyModel;
 use piola::fluids::AnyFluid;
 use piola::solids::{AnySolid, AnyVolumetric};
+use piola_document::units::{Dimension, UNITS, Unit, spelled};
 use serde_json::{Map, Value};
 
 use crate::FfiError;
@@ -112,7 +113,11 @@ pub fn solid_from_fit(
     model: Option<&str>,
     volumetric: Option<AnyVolumetric>,
 ) -> Result<AnySolid, FfiError> {
-    let entry = Entry::of(text, model)?;
+    solid_of(Entry::of(text, model)?, volumetric)
+}
+
+/// The law of an entry of a fit.
+pub(crate) fn solid_of(entry: Entry, volumetric: Option<AnyVolumetric>) -> Result<AnySolid, FfiError> {
     let model: AnyModel = entry.model.parse()?;
     let values: Vec<f64> = entry.parameters.iter().map(|(_, value)| *value).collect();
     let law = match volumetric {
@@ -127,21 +132,6 @@ pub fn solid_from_fit(
     law.solid().cloned().ok_or_else(given)
 }
 
-/// Units of stress in their usual spellings, in Pa.
-const PRESSURES: [(&[&str], f64); 11] = [
-    (&["Pa", "pa", "PA", "N/m^2", "N/m2", "N/m²"], 1.0),
-    (&["mPa"], 1e-3),
-    (&["kPa", "kpa", "KPa"], 1e3),
-    (&["MPa", "Mpa", "N/mm^2", "N/mm2", "N/mm²"], 1e6),
-    (&["GPa"], 1e9),
-    (&["mbar"], 1e2),
-    (&["bar"], 1e5),
-    (&["atm"], 101_325.0),
-    (&["psi"], 4.448_221_615_260_5 / 0.000_645_16),
-    (&["dyn/cm^2", "dyn/cm2", "dyn/cm²"], 0.1),
-    (&["kgf/cm^2", "kgf/cm2", "kgf/cm²"], 98_066.5),
-];
-
 /// The unit of the stresses of a summary, in Pa.
 fn stress_unit(summary: &Value) -> Result<f64, FfiError> {
     let given = match &summary["stress_unit"] {
@@ -149,10 +139,12 @@ fn stress_unit(summary: &Value) -> Result<f64, FfiError> {
         Value::String(given) => given.clone(),
         other => other.to_string(),
     };
-    let found = PRESSURES.iter().find(|(spellings, _)| spellings.contains(&given.trim()));
-    found.map(|(_, unit)| *unit).ok_or_else(|| {
-        let valid = PRESSURES.iter().filter_map(|(spellings, _)| spellings.first().copied());
-        FfiError::UnknownChoice { choice: "unit of stress", given, valid: valid.collect::<Vec<_>>().join(", ") }
+    let is_stress = |unit: &Unit| unit.dimension == Dimension::PRESSURE;
+    let found = spelled(&given).ok().filter(is_stress);
+    found.map(|unit| unit.to_si(1.0)).ok_or_else(|| {
+        let named = UNITS.iter().filter(|unit| is_stress(&unit.unit)).map(|unit| unit.name);
+        let valid = named.collect::<Vec<_>>().join(", ");
+        FfiError::UnknownChoice { choice: "unit of stress", given, valid }
     })
 }
 

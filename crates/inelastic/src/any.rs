@@ -170,6 +170,36 @@ macro_rules! laws {
                     $(Self::$law(law) => advance(law, state, [from, to], dt, control),)+
                 }
             }
+
+            /// As [`advance`](Self::advance), for P alone, Pa, and what it took: no derivative of the state or of the stress is computed.
+            ///
+            /// # Errors
+            /// Those of [`advance`](Self::advance).
+            ///
+            /// # Example
+            /// ```
+            /// use piola_continuum::DeformationGradient;
+            /// use piola_inelastic::{AnyInelastic, ByTangent, Mullins, StepControl};
+            /// use piola_solids::{AnySolid, NeoHookeanCiarlet};
+            /// let spring = ByTangent(AnySolid::from(NeoHookeanCiarlet::with_constants(1.0, 2.0)?));
+            /// let law = AnyInelastic::Mullins(Mullins::new(spring, 2.0, 0.25, 0.0)?).checked()?;
+            /// let (still, shear) = (DeformationGradient::identity(), DeformationGradient::simple_shear(0.3)?);
+            /// let (stress, _) = law.advance_stress(&mut [0.0], [&still, &shear], 1.0, &StepControl::one_step())?;
+            /// assert!((stress.0[(0, 1)] - 0.3).abs() < 1e-15); // μ k, first loading
+            /// # Ok::<(), Box<dyn std::error::Error>>(())
+            /// ```
+            pub fn advance_stress(
+                &self,
+                state: &mut [f64],
+                [from, to]: [&DeformationGradient; 2],
+                dt: f64,
+                control: &StepControl,
+            ) -> Result<(FirstPiola, Effort), InelasticError> {
+                self.check_parts()?;
+                match self {
+                    $(Self::$law(law) => advance_stress(law, state, [from, to], dt, control),)+
+                }
+            }
         }
     };
 }
@@ -266,4 +296,19 @@ fn advance<L: Evolution<S, X>, const S: usize, const X: usize>(
     state.copy_from_slice(point.state());
     let advanced = result?;
     Ok(AnyAdvanced { first_piola: advanced.first_piola, tangent: advanced.tangent, effort: advanced.effort })
+}
+
+/// One function for each law.
+#[inline(never)]
+fn advance_stress<L: Evolution<S, X>, const S: usize, const X: usize>(
+    law: &L,
+    state: &mut [f64],
+    [from, to]: [&DeformationGradient; 2],
+    dt: f64,
+    control: &StepControl,
+) -> Result<(FirstPiola, Effort), InelasticError> {
+    let mut point = InelasticPoint::with_state(law, state, from)?;
+    let result = point.advance_stress(to, dt, control);
+    state.copy_from_slice(point.state());
+    result
 }

@@ -5,13 +5,13 @@ use core::marker::PhantomData;
 use nalgebra::Matrix3;
 use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::{DeformationGradient, DisplacementGradient, FirstPiola};
-use piola_numerics::linear::matrix3::rows_of;
+use piola_numerics::linear::matrix3::{from_rows, rows_of};
 use piola_solids::{Response, SolidsError};
 use piola_tensor::FourthOrder;
 use piola_tensor::internal::rows::Rows;
 
 use crate::error::{check_bound, check_finite};
-use crate::newton::{Varied, between, stress};
+use crate::newton::{Along, Varied, between, stress, values, values_of_rows};
 use crate::path::{Effort, Increment, Reached, StepControl};
 use crate::{Evolution, InelasticError};
 
@@ -104,9 +104,42 @@ impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> InelasticPoint<'a, 
     ) -> Result<Advanced<S>, InelasticError> {
         let end = rows_of(to.matrix());
         let (reached, result) = self.run(&end, dt, control)?;
-        self.state = reached.state.map(|x| x.value);
-        self.gradient = self.increment(&end, dt, control).gradient(reached.share);
-        result
+        self.stand_at(&reached, &end, dt, control);
+        result.map(|(stress, effort)| advanced(&reached, &stress, effort))
+    }
+
+    /// Leads the point to a deformation in the time `dt`, s, as [`advance`](Self::advance) does, for P alone, Pa: no derivative of the state
+    /// or of the stress is computed.
+    ///
+    /// # Errors
+    /// Those of [`advance`](Self::advance).
+    ///
+    /// # Accuracy
+    /// P and the state differ from those of [`advance`](Self::advance) by rounding.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::DeformationGradient;
+    /// use piola_inelastic::{InelasticPoint, ReeseGovindjee, StepControl};
+    /// use piola_solids::NeoHookeanCiarlet;
+    /// let spring = NeoHookeanCiarlet::with_constants(1.0, 2.0)?;
+    /// let law = ReeseGovindjee::new(spring, spring, 0.5)?;
+    /// let mut point = InelasticPoint::new(&law);
+    /// let shear = DeformationGradient::simple_shear(0.3)?;
+    /// let (stress, effort) = point.advance_stress(&shear, 1e-6, &StepControl::one_step())?;
+    /// assert!((stress.0[(0, 1)] - 0.6).abs() < 1e-5 && effort.steps == 1); // 2 μ k
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn advance_stress(
+        &mut self,
+        to: &DeformationGradient,
+        dt: f64,
+        control: &StepControl,
+    ) -> Result<(FirstPiola, Effort), InelasticError> {
+        let end = rows_of(to.matrix());
+        let (reached, result) = self.run::<f64>(&end, dt, control)?;
+        self.stand_at(&reached, &end, dt, control);
+        result.map(|(stress, effort)| (FirstPiola(from_rows(stress)), effort))
     }
 
     /// What [`advance`](Self::advance) would return, the point staying where it is.
@@ -119,7 +152,8 @@ impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> InelasticPoint<'a, 
         dt: f64,
         control: &StepControl,
     ) -> Result<Advanced<S>, InelasticError> {
-        self.run(&rows_of(to.matrix()), dt, control)?.1
+        let (reached, result) = self.run(&rows_of(to.matrix()), dt, control)?;
+        result.map(|(stress, effort)| advanced(&reached, &stress, effort))
     }
 
     /// Stress and consistent tangent as functions of the deformation at the end of an increment, as
@@ -133,31 +167,46 @@ impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> InelasticPoint<'a, 
         Increment { law: self.law, start: self.gradient, end: *end, dt, control: *control }
     }
 
-    /// Where the increment stands, and what is to be returned of it.
-    fn run(
+    /// Takes the place to which an increment has come.
+    fn stand_at<T: Along>(&mut self, reached: &Reached<T, S>, end: &Rows<f64>, dt: f64, control: &StepControl) {
+        self.state = values(&reached.state);
+        self.gradient = self.increment(end, dt, control).gradient(reached.share);
+    }
+
+    /// Where the increment stands, and the stress there with what it took; why it ended early.
+    #[expect(clippy::type_complexity, reason = "where it stands also after a failure")]
+    fn run<T: Along>(
         &self,
         end: &Rows<f64>,
         dt: f64,
         control: &StepControl,
-    ) -> Result<(Reached<S>, Result<Advanced<S>, InelasticError>), InelasticError> {
+    ) -> Result<(Reached<T, S>, Result<(Rows<T>, Effort), InelasticError>), InelasticError> {
         check_bound("increment", "dt", dt, "0 ≤ dt", 0.0 <= dt)?;
         let increment = self.increment(end, dt, control);
-        let (reached, effort, failure) = increment.run::<X>(&self.state);
+        let (reached, effort, failure) = increment.run::<T, X>(&self.state);
         if let Some(failure) = failure {
             let error = failure.at(reached.share, increment.gradient(reached.share));
             return Ok((reached, Err(error)));
         }
-        let state = reached.state.map(|x| x.value);
-        self.law.check(end, &state)?;
-        let varied: Rows<Varied> = stress(self.law, &between(&self.gradient, end, 1.0), &reached.state);
-        let first_piola = Matrix3::from_fn(|i, j| varied[i][j].value);
-        check_finite("P", first_piola.as_slice())?;
-        let mut components = [[0.0; 9]; 9];
-        for (place, row) in components.iter_mut().enumerate() {
-            *row = varied[place / 3][place % 3].partials;
-        }
-        let tangent = FirstPiolaTangent(FourthOrder { components });
-        Ok((reached, Ok(Advanced { state, first_piola: FirstPiola(first_piola), tangent, effort })))
+        self.law.check(end, &values(&reached.state))?;
+        let stress = stress(self.law, &between(&self.gradient, end, 1.0), &reached.state);
+        check_finite("P", values_of_rows(&stress).as_flattened())?;
+        Ok((reached, Ok((stress, effort))))
+    }
+}
+
+/// State, stress and tangent of numbers with derivatives.
+fn advanced<const S: usize>(reached: &Reached<Varied, S>, stress: &Rows<Varied>, effort: Effort) -> Advanced<S> {
+    let mut components = [[0.0; 9]; 9];
+    for (row, entry) in components.iter_mut().zip(stress.as_flattened()) {
+        *row = entry.partials;
+    }
+    let tangent = FirstPiolaTangent(FourthOrder { components });
+    Advanced {
+        state: values(&reached.state),
+        first_piola: FirstPiola(from_rows(values_of_rows(stress))),
+        tangent,
+        effort,
     }
 }
 

@@ -13,6 +13,71 @@ pub(crate) type Varied = Gradient<f64, 9>;
 /// Iterations after which an update is given up.
 const MOST_ITERATIONS: usize = 40;
 
+/// The numbers of an increment: with derivatives where the tangent is wanted, plain ones where the stress alone is.
+pub(crate) trait Along: Real {
+    /// The entry at a place of F at a share of the increment, where it has this value.
+    fn entry(value: f64, place: usize, share: f64) -> Self;
+
+    /// The unknowns that solve the equations of a step: one more iteration in their value, and their derivatives.
+    fn exact<L: Evolution<S, X>, const S: usize, const X: usize>(
+        law: &L,
+        from: &[Self; S],
+        gradient: &Rows<Self>,
+        dt: f64,
+        solution: &Solution<X>,
+    ) -> Option<[Self; X]>;
+}
+
+impl Along for f64 {
+    fn entry(value: f64, _place: usize, _share: f64) -> Self {
+        value
+    }
+
+    fn exact<L: Evolution<S, X>, const S: usize, const X: usize>(
+        _law: &L,
+        _from: &[Self; S],
+        _gradient: &Rows<Self>,
+        _dt: f64,
+        solution: &Solution<X>,
+    ) -> Option<[Self; X]> {
+        let mut exact = solution.unknowns;
+        for (x, correction) in exact.iter_mut().zip(solved(&solution.matrix, solution.residual)?) {
+            *x -= correction;
+        }
+        Some(exact)
+    }
+}
+
+impl Along for Varied {
+    fn entry(value: f64, place: usize, share: f64) -> Self {
+        let mut entry = Self::variable(value, place);
+        entry.partials[place] = share;
+        entry
+    }
+
+    /// x̂ = x − (∂r/∂x)⁻¹ r(ẑ, F̂, x).
+    fn exact<L: Evolution<S, X>, const S: usize, const X: usize>(
+        law: &L,
+        from: &[Self; S],
+        gradient: &Rows<Self>,
+        dt: f64,
+        solution: &Solution<X>,
+    ) -> Option<[Self; X]> {
+        let mut exact = solution.unknowns.map(Self::constant);
+        let varied = law.residual(from, gradient, &exact, dt);
+        for (x, correction) in exact.iter_mut().zip(solved(&solution.matrix, values(&varied))?) {
+            x.value -= correction;
+        }
+        for direction in 0..9 {
+            let rates = solved(&solution.matrix, varied.map(|r| r.partials[direction]))?;
+            for (x, rate) in exact.iter_mut().zip(rates) {
+                x.partials[direction] = -rate;
+            }
+        }
+        Some(exact)
+    }
+}
+
 /// How an update came to its end.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Iterations {
@@ -26,12 +91,12 @@ fn size(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |size: f64, x| if x.is_nan() || size < x.abs() { x.abs() } else { size })
 }
 
-fn values<const K: usize>(varied: &[Varied; K]) -> [f64; K] {
-    varied.map(|x| x.value)
+pub(crate) fn values<T: Along, const K: usize>(varied: &[T; K]) -> [f64; K] {
+    varied.map(|x| x.primal(0))
 }
 
-pub(crate) fn values_of_rows(varied: &Rows<Varied>) -> Rows<f64> {
-    varied.map(|row| row.map(|x| x.value))
+pub(crate) fn values_of_rows<T: Along>(varied: &Rows<T>) -> Rows<f64> {
+    varied.map(|row| row.map(|x| x.primal(0)))
 }
 
 /// The residual and its derivatives by the unknowns.
@@ -57,22 +122,25 @@ fn solved<const X: usize>(matrix: &SMatrix<f64, X, X>, right: [f64; X]) -> Optio
     lu::solve(*matrix, SVector::from(right)).ok().map(Into::into)
 }
 
-/// The state at the end of one implicit step, with its derivatives; the iterations also where there is no such state.
+/// What Newton's method has found: unknowns, their residual, and its derivatives.
+pub(crate) struct Solution<const X: usize> {
+    unknowns: [f64; X],
+    residual: [f64; X],
+    matrix: SMatrix<f64, X, X>,
+    iterations: Iterations,
+}
+
+/// Solves the equations of one implicit step; the iterations where it does not.
 #[inline(never)]
-pub(crate) fn implicit_step<L: Evolution<S, X>, const S: usize, const X: usize>(
+fn solution<L: Evolution<S, X>, const S: usize, const X: usize>(
     law: &L,
-    from: &[Varied; S],
-    gradient: &Rows<Varied>,
+    start: &[f64; S],
+    f: &Rows<f64>,
     dt: f64,
-) -> Result<([Varied; S], Iterations), Iterations> {
-    let (start, f) = (values(from), values_of_rows(gradient));
+) -> Result<Solution<X>, Iterations> {
     let mut iterations = Iterations { count: 0, residual: 0.0 };
     let mut unknowns = [0.0; X];
-    if X == 0 || !law.evolves(&start, &f, dt) {
-        let state = law.updated(from, gradient, &[Varied::constant(0.0); X], dt);
-        return if size(&values(&state)).is_finite() { Ok((state, iterations)) } else { Err(iterations) };
-    }
-    let (mut residual, mut matrix) = linearised(law, &start, &f, &unknowns, dt);
+    let (mut residual, mut matrix) = linearised(law, start, f, &unknowns, dt);
     loop {
         let before = size(&residual);
         iterations.residual = before;
@@ -89,7 +157,7 @@ pub(crate) fn implicit_step<L: Evolution<S, X>, const S: usize, const X: usize>(
             for (x, step) in next.iter_mut().zip(step) {
                 *x += share * step;
             }
-            (residual, matrix) = linearised(law, &start, &f, &next, dt);
+            (residual, matrix) = linearised(law, start, f, &next, dt);
             let after = size(&residual);
             if after < before || after <= ROUNDING {
                 break;
@@ -99,7 +167,7 @@ pub(crate) fn implicit_step<L: Evolution<S, X>, const S: usize, const X: usize>(
                 // Where the residual is rounding alone nothing lowers it.
                 if before <= NEARLY {
                     next = unknowns;
-                    (residual, matrix) = linearised(law, &start, &f, &next, dt);
+                    (residual, matrix) = linearised(law, start, f, &next, dt);
                     break;
                 }
                 return Err(iterations);
@@ -108,24 +176,28 @@ pub(crate) fn implicit_step<L: Evolution<S, X>, const S: usize, const X: usize>(
         let moved = size(&step) * share;
         unknowns = next;
         if size(&residual) <= ROUNDING || moved <= NEARLY {
-            break;
+            return Ok(Solution { unknowns, residual, matrix, iterations });
         }
     }
-    // x̂ = x − (∂r/∂x)⁻¹ r(ẑ, F̂, x): derivatives of the unknowns, and in their value one more iteration.
-    let frozen = unknowns.map(Varied::constant);
-    let varied = law.residual(from, gradient, &frozen, dt);
-    let mut exact = frozen;
-    let Some(correction) = solved(&matrix, values(&varied)) else { return Err(iterations) };
-    for (x, correction) in exact.iter_mut().zip(correction) {
-        x.value -= correction;
+}
+
+/// The state at the end of one implicit step; the iterations also where there is no such state.
+#[inline(never)]
+pub(crate) fn implicit_step<T: Along, L: Evolution<S, X>, const S: usize, const X: usize>(
+    law: &L,
+    from: &[T; S],
+    gradient: &Rows<T>,
+    dt: f64,
+) -> Result<([T; S], Iterations), Iterations> {
+    let (start, f) = (values(from), values_of_rows(gradient));
+    let mut unknowns = [T::zero(); X];
+    let mut iterations = Iterations { count: 0, residual: 0.0 };
+    if X != 0 && law.evolves(&start, &f, dt) {
+        let solution = solution(law, &start, &f, dt)?;
+        iterations = solution.iterations;
+        unknowns = T::exact(law, from, gradient, dt, &solution).ok_or(iterations)?;
     }
-    for direction in 0..9 {
-        let Some(rate) = solved(&matrix, varied.map(|r| r.partials[direction])) else { return Err(iterations) };
-        for (x, rate) in exact.iter_mut().zip(rate) {
-            x.partials[direction] = -rate;
-        }
-    }
-    let state = law.updated(from, gradient, &exact, dt);
+    let state = law.updated(from, gradient, &unknowns, dt);
     if size(&values(&state)).is_finite() { Ok((state, iterations)) } else { Err(iterations) }
 }
 
@@ -135,25 +207,24 @@ pub(crate) const ROUNDING: f64 = 1e-15;
 pub(crate) const NEARLY: f64 = 1e-9;
 const SMALLEST_SHARE: f64 = 1e-4;
 
-/// P and ∂P/∂F of the deformation and the state, both with derivatives.
+/// P of the deformation and the state, with derivatives where both have them.
 #[inline(never)]
-pub(crate) fn stress<L: Evolution<S, X>, const S: usize, const X: usize>(
+pub(crate) fn stress<T: Along, L: Evolution<S, X>, const S: usize, const X: usize>(
     law: &L,
-    gradient: &Rows<Varied>,
-    state: &[Varied; S],
-) -> Rows<Varied> {
+    gradient: &Rows<T>,
+    state: &[T; S],
+) -> Rows<T> {
     law.first_piola(gradient, state)
 }
 
-/// F₀ + s (F₁ − F₀), with derivatives by F₁.
-pub(crate) fn between(start: &Rows<f64>, end: &Rows<f64>, share: f64) -> Rows<Varied> {
-    let mut gradient = [[Varied::constant(0.0); 3]; 3];
+/// F₀ + s (F₁ − F₀), with derivatives by F₁ where its numbers have them.
+pub(crate) fn between<T: Along>(start: &Rows<f64>, end: &Rows<f64>, share: f64) -> Rows<T> {
+    let mut gradient = [[T::zero(); 3]; 3];
     for (i, row) in gradient.iter_mut().enumerate() {
         for (j, entry) in row.iter_mut().enumerate() {
             // At the end exactly F₁.
             let value = if share < 1.0 { start[i][j] + share * (end[i][j] - start[i][j]) } else { end[i][j] };
-            *entry = Varied::variable(value, 3 * i + j) * Varied::lit(1.0);
-            entry.partials[3 * i + j] = share;
+            *entry = T::entry(value, 3 * i + j, share);
         }
     }
     gradient

@@ -2,7 +2,7 @@
 
 use piola_tensor::internal::rows::Rows;
 
-use crate::newton::{Iterations, Varied, between, implicit_step, values_of_rows};
+use crate::newton::{Along, Iterations, between, implicit_step, values};
 use crate::{Evolution, InelasticError};
 
 /// The most widths of steps that are extrapolated: 1, ½, ⅓, … of the increment. Seven multiply rounding by a thousand, ten by fifty
@@ -23,7 +23,8 @@ pub struct StepControl {
 }
 
 impl StepControl {
-    /// With an estimated error of the internal variables below `tolerance`, in each part of an increment.
+    /// With an estimated error of the internal variables below `tolerance`, in each part of an increment. Parts begin and end where
+    /// [`Evolution::evolves`] changes, as at a yield point.
     ///
     /// # Errors
     /// [`InelasticError::NotFinite`], [`InelasticError::OutOfBounds`] unless 1e-14 ≤ tolerance.
@@ -69,9 +70,9 @@ pub struct Effort {
 
 /// Where an increment stands.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Reached<const S: usize> {
+pub(crate) struct Reached<T, const S: usize> {
     pub(crate) share: f64,
-    pub(crate) state: [Varied; S],
+    pub(crate) state: [T; S],
 }
 
 /// Why an increment ended early.
@@ -105,13 +106,13 @@ pub(crate) struct Increment<'a, L, const S: usize> {
 
 impl<L, const S: usize> Increment<'_, L, S> {
     /// `count` equal implicit steps over a part of the increment.
-    fn steps<const X: usize>(
+    fn steps<T: Along, const X: usize>(
         &self,
-        from: &Reached<S>,
+        from: &Reached<T, S>,
         width: f64,
         count: usize,
         effort: &mut Effort,
-    ) -> Result<[Varied; S], Failure>
+    ) -> Result<[T; S], Failure>
     where
         L: Evolution<S, X>,
     {
@@ -121,7 +122,7 @@ impl<L, const S: usize> Increment<'_, L, S> {
             let gradient = between(&self.start, &self.end, share);
             let dt = self.dt * (width / count as f64);
             let (next, iterations) =
-                implicit_step::<L, S, X>(self.law, &state, &gradient, dt).map_err(Failure::Newton)?;
+                implicit_step::<T, L, S, X>(self.law, &state, &gradient, dt).map_err(Failure::Newton)?;
             state = next;
             effort.steps += 1;
             effort.iterations += iterations.count;
@@ -134,22 +135,22 @@ impl<L, const S: usize> Increment<'_, L, S> {
     /// ```text
     /// Tⱼₖ = Tⱼ,ₖ₋₁ + (Tⱼ,ₖ₋₁ − Tⱼ₋₁,ₖ₋₁)/(nⱼ/nⱼ₋ₖ₊₁ − 1)
     /// ```
-    fn part<const X: usize>(
+    fn part<T: Along, const X: usize>(
         &self,
-        from: &Reached<S>,
+        from: &Reached<T, S>,
         width: f64,
         effort: &mut Effort,
-    ) -> Result<([Varied; S], usize), Failure>
+    ) -> Result<([T; S], usize), Failure>
     where
         L: Evolution<S, X>,
     {
         let Some(tolerance) = self.control.tolerance else {
-            return Ok((self.steps::<X>(from, width, 1, effort)?, 1));
+            return Ok((self.steps::<T, X>(from, width, 1, effort)?, 1));
         };
-        let mut row = [[Varied::constant(0.0); S]; MOST_WIDTHS];
+        let mut row = [[T::zero(); S]; MOST_WIDTHS];
         let mut error = f64::INFINITY;
         for j in 0..MOST_WIDTHS {
-            let state = self.steps::<X>(from, width, j + 1, effort)?;
+            let state = self.steps::<T, X>(from, width, j + 1, effort)?;
             let mut entry = self.law.coordinates(&from.state, &state);
             let mut last = entry;
             for (k, place) in row.iter_mut().take(j).enumerate() {
@@ -158,13 +159,14 @@ impl<L, const S: usize> Increment<'_, L, S> {
                 let ratio = (j + 1) as f64 / (j - k) as f64 - 1.0;
                 last = entry;
                 for (entry, above) in entry.iter_mut().zip(above) {
-                    let change = (*entry - above) * Varied::constant(1.0 / ratio);
+                    let change = (*entry - above) * T::lit(1.0 / ratio);
                     *entry += change;
                 }
             }
             row[j] = entry;
             if 0 < j {
-                error = entry.iter().zip(last).fold(0.0, |size: f64, (x, y)| size.max((x.value - y.value).abs()));
+                error =
+                    entry.iter().zip(last).fold(0.0, |size: f64, (x, y)| size.max((x.primal(0) - y.primal(0)).abs()));
                 if error <= tolerance {
                     effort.error = effort.error.max(error);
                     return Ok((self.law.at_coordinates(&from.state, &entry), j + 1));
@@ -174,17 +176,52 @@ impl<L, const S: usize> Increment<'_, L, S> {
         Err(Failure::Error { error, tolerance })
     }
 
+    /// Makes a part begin where the body begins to flow, and end where it still flows: the share at which it begins, perhaps with a smaller
+    /// width.
+    ///
+    /// Steps in which nothing flows leave the state alone, so an implicit step from before the yield point has the same result as one from the
+    /// yield point. Steps of several widths would agree on it, and their difference would tell nothing of its error.
+    fn aligned<const X: usize>(&self, state: &[f64; S], start: f64, width: &mut f64) -> f64
+    where
+        L: Evolution<S, X>,
+    {
+        let flows = |share: f64| self.law.evolves(state, &self.gradient(share), self.dt * (share - start));
+        if flows(start + *width * BESIDE) {
+            while SHORTEST_FLOW < *width && !flows(start + *width) {
+                *width *= 0.5;
+            }
+            return start;
+        }
+        let mut samples = (1..=SAMPLES).map(|k| start + *width * (k as f64 / SAMPLES as f64));
+        let Some(mut high) = samples.find(|share| flows(*share)) else { return start };
+        let mut low = high - *width / SAMPLES as f64;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if flows(middle) { high = middle } else { low = middle }
+        }
+        if start + *width * BESIDE < low { low } else { start }
+    }
+
     /// The state at the end; where that is not reached, the last admissible state and why it is the last.
-    pub(crate) fn run<const X: usize>(&self, state: &[f64; S]) -> (Reached<S>, Effort, Option<Failure>)
+    pub(crate) fn run<T: Along, const X: usize>(&self, state: &[f64; S]) -> (Reached<T, S>, Effort, Option<Failure>)
     where
         L: Evolution<S, X>,
     {
         let mut effort = Effort { parts: 0, steps: 0, iterations: 0, error: 0.0 };
-        let mut reached = Reached { share: 0.0, state: state.map(Varied::constant) };
-        let mut width = 1.0;
+        let mut reached = Reached { share: 0.0, state: state.map(T::lit) };
+        let (mut width, mut alignments) = (1.0, 0);
         while reached.share < 1.0 {
             width = f64::min(width, 1.0 - reached.share);
-            match self.part::<X>(&reached, width, &mut effort) {
+            if X != 0 && self.control.tolerance.is_some() && alignments < MOST_ALIGNMENTS {
+                let before = width;
+                let share = self.aligned::<X>(&values(&reached.state), reached.share, &mut width);
+                alignments += usize::from(reached.share < share || width < before);
+                if reached.share < share {
+                    reached.share = share;
+                    continue;
+                }
+            }
+            match self.part::<T, X>(&reached, width, &mut effort) {
                 Ok((state, widths)) => {
                     let share = if width < 1.0 - reached.share { reached.share + width } else { 1.0 };
                     reached = Reached { share, state };
@@ -206,9 +243,19 @@ impl<L, const S: usize> Increment<'_, L, S> {
 
     /// F of a share of the increment.
     pub(crate) fn gradient(&self, share: f64) -> Rows<f64> {
-        values_of_rows(&between(&self.start, &self.end, share))
+        between(&self.start, &self.end, share)
     }
 }
 
 /// Parts of an increment are not divided further.
 const SMALLEST_WIDTH: f64 = 1e-5;
+/// The share of a part that is taken as its beginning, above the rounding of a yield stress.
+const BESIDE: f64 = 1e-12;
+/// A part at whose end the body no longer flows is shortened to this: flow fades before it ends, so that less than the square is missed.
+const SHORTEST_FLOW: f64 = 1e-7;
+/// Shares of a part at which the body is asked whether it flows.
+const SAMPLES: usize = 8;
+/// How often flow may begin or end in an increment. A load that neither loads nor unloads a flowing body begins and ends it by rounding.
+const MOST_ALIGNMENTS: usize = 8;
+/// Halvings that find the beginning of flow to rounding.
+const HALVINGS: usize = 50;

@@ -15,10 +15,10 @@ pub(super) const COMMAND: Command = Command {
     name: "weight",
     usage: "[--only NAME]... [--page]",
     help: "measure what building costs, each in an empty target folder, and hold it to its limits
-Builds the README's first and second command, each library crate alone with its default features, and two programs
-of a user that evaluate one law and all laws in lanes; prints wall seconds, processor seconds and lines of `src`,
+Builds the README's first and second command, each library crate alone with its default features, and three programs
+of a user that evaluate one law, a law of the user's own and all laws in lanes; prints wall seconds, processor seconds and lines of `src`,
 and the functions with most lines of LLVM IR where `cargo llvm-lines` is installed. Takes half an hour on two cores.
---only NAME   only this row: a crate's folder, `run`, `test`, `one-law` or `all-laws`
+--only NAME   only this row: a crate's folder, `run`, `test`, `one-law`, `own-law` or `all-laws`
 --page        also write docs/measurements/weight.md",
     prepare: |shell, workspace, options| {
         let only = options.values("--only")?;
@@ -211,6 +211,12 @@ fn write_program(workspace: &Workspace, folder: &Path, name: &str, source: &str)
         path("batch"),
         path("solids"),
     );
+    let of_own_laws = format!(
+        "piola-laws = {{ path = {:?}, features = [\"batch\"] }}\npiola-numerics = {{ path = {:?} }}\n",
+        path("laws"),
+        path("numerics"),
+    );
+    let manifest = manifest + if source.contains("piola_laws") { &of_own_laws } else { "" };
     std::fs::write(folder.join("Cargo.toml"), manifest).map_err(fail)?;
     std::fs::write(folder.join("Cargo.lock"), read(&workspace.root.join("Cargo.lock"))?).map_err(fail)?;
     std::fs::write(folder.join("src/main.rs"), source).map_err(fail)
@@ -223,6 +229,12 @@ const PROGRAMS: &[(&str, &str, &str, f64)] = &[
         "a program that evaluates one law in lanes, after its libraries",
         include_str!("weight/one_law.rs"),
         5.0,
+    ),
+    (
+        "own-law",
+        "a program that evaluates a law of the user's own in lanes, after its libraries",
+        include_str!("weight/own_law.rs"),
+        8.0,
     ),
     (
         "all-laws",

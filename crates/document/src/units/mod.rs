@@ -18,11 +18,13 @@
 mod dimension;
 mod names;
 mod quantity;
+mod spelling;
 mod unit;
 
 pub use dimension::Dimension;
 pub use names::{NamedUnit, UNITS};
 pub use quantity::{Quantity, VectorQuantity};
+pub use spelling::spelled;
 pub use unit::Unit;
 
 /// Why a text is not a quantity.

@@ -1,4 +1,4 @@
-//! Laws with history: made from a text, a fit or numbers, advanced at many points; UMAT and VUMAT of such laws.
+//! Laws with history: made from a text, a fit or numbers, advanced at many points.
 //!
 //! Each item names the feature `history`, so that the header guards it by `PIOLA_HISTORY`.
 
@@ -7,17 +7,15 @@ use std::ffi::c_char;
 use piola::inelastic::AnyInelastic;
 
 use super::PiolaStatus;
-use super::abaqus::padded;
 use super::memory::{
     check_apart, choice, hand_over, handle, optional_text, points, points_mut, put, slice, slice_mut, text, texts,
 };
 use super::status::answer;
-use crate::history::abaqus::{PointIncrement, Stretching, umat, vumat};
 use crate::history::text::{history_from_fit, history_from_json};
 use crate::history::{DeformationIncrement, StateLayout, States, advance, initial_states};
-use crate::materials::{material_state_length, material_with_history};
+use crate::materials::material_state_length;
+use crate::named;
 use crate::points::{StressMeasure, TangentMeasure, VoigtNumbering};
-use crate::{FfiError, named};
 
 /// A law with history. Made by `piola_history_from_*`, freed by `piola_history_free`.
 #[cfg(feature = "history")]
@@ -135,7 +133,7 @@ pub unsafe extern "C" fn piola_history_state_length(history: *const PiolaHistory
 }
 
 /// The number of internal variables of the law with this name, NSTATV of Abaqus: that of a law, such as `kinematic-hencky-lame-hencky-lame`,
-/// or of a file in the folder `PIOLA_MATERIALS`.
+/// or of a file in the folder `PIOLA_MATERIALS`; 0 of an elastic law.
 ///
 /// # Safety
 /// See the [module](super).
@@ -170,7 +168,7 @@ pub unsafe extern "C" fn piola_history_initial_states(
 /// `stress` is a `PiolaStress`, `tangent` a `PiolaTangent`, `voigt` a `PiolaVoigt`, `layout` a `PiolaLayout`. The deformation gradients
 /// `from` and `to`, 9 n numbers by rows, are those at the start and the end; the increment takes `dt` s. `tolerance` bounds the estimated
 /// error of the internal variables; with 0 the increment is one implicit step. `before` and `after` have n states. Outputs that overlap
-/// inputs or one another are refused: `after` is other memory than `before`. `tangents` may be a null pointer with the length 0; otherwise it gets 81 or 36 numbers a point, by rows, which lack the
+/// inputs or one another are refused: `after` is other memory than `before`. `tangents` may be a null pointer with the length 0: no tangent is then computed; otherwise it gets 81 or 36 numbers a point, by rows, which lack the
 /// major symmetry in general.
 ///
 /// After `PIOLA_STATUS_BAD_POINTS` stresses and tangents of the points that failed are NaN and their new states those before; the message
@@ -227,124 +225,5 @@ pub unsafe extern "C" fn piola_history_advance(
         let increment = DeformationIncrement { from: points("from", from)?, to: points("to", to)?, dt, tolerance };
         let states = States { layout, before, after };
         advance(&history.0, increment, states, measure, points_mut("stresses", stresses)?, wanted)
-    })
-}
-
-/// STRESS, DDSDDE and STATEV of Abaqus at one point of a law with history; see `fortran/umat_history.f`.
-///
-/// `name` has `name_length` characters: a law with its parameters in `properties`, or the name of a file in the folder
-/// `PIOLA_MATERIALS`. `from` and `to` are DFGRD0 and DFGRD1, nine numbers by columns. `temperature` is that at the end, TEMP + DTEMP; the
-/// law `thermal` takes it in the place of its state, and no other law uses it. `state` has `state_length` numbers, zeros for the body as it
-/// was made. `stress` gets NTENS = `direct` + `shear` numbers, `tangent` NTENS^2 by columns.
-///
-/// # Safety
-/// See the [module](super).
-#[cfg(feature = "history")]
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_history_umat(
-    name: *const c_char,
-    name_length: usize,
-    properties: *const f64,
-    properties_length: usize,
-    direct: usize,
-    shear: usize,
-    from: *const f64,
-    to: *const f64,
-    dt: f64,
-    temperature: f64,
-    state: *mut f64,
-    state_length: usize,
-    stress: *mut f64,
-    tangent: *mut f64,
-) -> PiolaStatus {
-    answer(|| {
-        let count = direct.saturating_add(shear);
-        check_apart(
-            &[
-                ("state", state, state_length),
-                ("stress", stress, count),
-                ("tangent", tangent, count.saturating_mul(count)),
-            ],
-            &[("properties", properties, properties_length), ("from", from, 9), ("to", to, 9)],
-        )?;
-        // SAFETY: as the caller promises.
-        let (name, properties) =
-            unsafe { (padded("name", name, name_length)?, slice("properties", properties, properties_length)?) };
-        // SAFETY: as the caller promises.
-        let (from, to) = unsafe { (slice("from", from, 9)?, slice("to", to, 9)?) };
-        // SAFETY: as the caller promises.
-        let (state, stress, tangent) = unsafe {
-            (
-                slice_mut("state", state, state_length)?,
-                slice_mut("stress", stress, count)?,
-                slice_mut("tangent", tangent, count.saturating_mul(count))?,
-            )
-        };
-        let law = material_with_history(name, properties)?;
-        let wrong = || FfiError::WrongLength { quantity: "f", expected: 9, found: 0 };
-        let f = [from.first_chunk().ok_or_else(wrong)?, to.first_chunk().ok_or_else(wrong)?];
-        umat(&law, [direct, shear], PointIncrement { f, dt, temperature }, state, stress, tangent)
-    })
-}
-
-/// Corotated stresses and states of Abaqus/Explicit of a law with history; see `fortran/vumat_history.f`.
-///
-/// `before` and `after` have n (`direct` + `shear`) numbers, each component an array: 11, 22, 33, 12, 23, 13; with a null pointer
-/// the body is undeformed before. `added` is added to the diagonal of `after`: 0 for stretches, 1 for small strains. `temperatures` has n
-/// numbers, tempNew, which the law `thermal` takes in the place of its states; with none of them these stay as they are. `old` and `new_states`
-/// have n `state_length` numbers, each variable an array; a state of zeros is that of the body as it was made. `stresses` gets as many
-/// numbers as `after` has. Outputs that overlap
-/// inputs or one another are refused.
-///
-/// # Safety
-/// See the [module](super).
-#[cfg(feature = "history")]
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_history_vumat(
-    name: *const c_char,
-    name_length: usize,
-    properties: *const f64,
-    properties_length: usize,
-    points: usize,
-    direct: usize,
-    shear: usize,
-    before: *const f64,
-    after: *const f64,
-    added: f64,
-    dt: f64,
-    temperatures: *const f64,
-    temperatures_length: usize,
-    old: *const f64,
-    new_states: *mut f64,
-    state_length: usize,
-    stresses: *mut f64,
-) -> PiolaStatus {
-    answer(|| {
-        let count = points.saturating_mul(direct.saturating_add(shear));
-        let numbers = points.saturating_mul(state_length);
-        let before_length = if before.is_null() { 0 } else { count };
-        check_apart(
-            &[("new_states", new_states, numbers), ("stresses", stresses, count)],
-            &[
-                ("properties", properties, properties_length),
-                ("before", before, before_length),
-                ("after", after, count),
-                ("temperatures", temperatures, temperatures_length),
-                ("old", old, numbers),
-            ],
-        )?;
-        // SAFETY: as the caller promises.
-        let (name, properties) =
-            unsafe { (padded("name", name, name_length)?, slice("properties", properties, properties_length)?) };
-        // SAFETY: as the caller promises.
-        let before = unsafe { slice("before", before, before_length)? };
-        // SAFETY: as the caller promises.
-        let temperatures = unsafe { slice("temperatures", temperatures, temperatures_length)? };
-        // SAFETY: as the caller promises.
-        let (after, stresses) = unsafe { (slice("after", after, count)?, slice_mut("stresses", stresses, count)?) };
-        // SAFETY: as the caller promises.
-        let states = unsafe { (slice("old", old, numbers)?, slice_mut("new_states", new_states, numbers)?) };
-        let law = material_with_history(name, properties)?;
-        vumat(&law, [direct, shear], Stretching { before, after, added, dt, temperatures }, states, stresses)
     })
 }

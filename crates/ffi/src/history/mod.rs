@@ -23,17 +23,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod abaqus;
+pub(crate) mod abaqus;
 mod conversions;
 pub(crate) mod named;
 pub mod text;
 mod views;
 
 use piola::continuum::DeformationGradient;
-use piola::inelastic::{AnyAdvanced, AnyInelastic, InelasticError, MOST_STATE, StepControl};
+use piola::inelastic::{AnyInelastic, InelasticError, MOST_STATE, StepControl};
 
 use crate::FfiError;
-use crate::error::{check_finite, check_length};
+use crate::error::{Bad, check_finite, check_length};
 use crate::points::{StressMeasure, TangentMeasure, VoigtNumbering};
 use views::{After, gather};
 
@@ -159,7 +159,8 @@ pub fn advance(
     };
     let batch = Batch { law, increment, control, layout, before, stress, tangent };
     let after = After::of(layout, length, after);
-    batch.run(Part { first: 0, after, stresses, tangents: numbers }).finish(count)
+    let bad = batch.run(Part { first: 0, after, stresses, tangents: numbers });
+    bad.finish(|bad, index, error| FfiError::BadIncrements { bad, count, index, error: Box::new(error) })
 }
 
 /// What all points share.
@@ -181,24 +182,6 @@ struct Part<'a> {
     tangents: &'a mut [f64],
 }
 
-/// Points that failed: how many, and the first of them.
-#[derive(Default)]
-struct Bad {
-    count: usize,
-    first: Option<(usize, InelasticError)>,
-}
-
-impl Bad {
-    fn finish(self, count: usize) -> Result<(), FfiError> {
-        match self.first {
-            None => Ok(()),
-            Some((index, error)) => {
-                Err(FfiError::BadIncrements { bad: self.count, count, index, error: Box::new(error) })
-            }
-        }
-    }
-}
-
 impl Batch<'_> {
     /// Numbers of a tangent.
     fn numbers(&self) -> usize {
@@ -206,7 +189,7 @@ impl Batch<'_> {
     }
 
     #[cfg(feature = "rayon")]
-    fn run(&self, part: Part<'_>) -> Bad {
+    fn run(&self, part: Part<'_>) -> Bad<InelasticError> {
         if part.stresses.len() < PARALLEL || rayon::current_num_threads() < 2 {
             return self.points(part);
         }
@@ -218,15 +201,15 @@ impl Batch<'_> {
         let tail =
             Part { first: part.first + half, after: other_after, stresses: other_stresses, tangents: other_tangents };
         let (head, tail) = rayon::join(|| self.run(head), || self.run(tail));
-        Bad { count: head.count + tail.count, first: head.first.or(tail.first) }
+        head.and(tail)
     }
 
     #[cfg(not(feature = "rayon"))]
-    fn run(&self, part: Part<'_>) -> Bad {
+    fn run(&self, part: Part<'_>) -> Bad<InelasticError> {
         self.points(part)
     }
 
-    fn points(&self, mut part: Part<'_>) -> Bad {
+    fn points(&self, mut part: Part<'_>) -> Bad<InelasticError> {
         let (numbers, length) = (self.numbers(), self.law.state_length());
         let mut bad = Bad::default();
         let mut memory = [0.0; MOST_STATE];
@@ -236,8 +219,7 @@ impl Batch<'_> {
             let tangent = &mut part.tangents[numbers * point..][..numbers];
             gather(self.layout, self.before, index, state);
             if let Err(error) = self.point(index, state, stress, tangent) {
-                bad.count += 1;
-                bad.first.get_or_insert((index, error));
+                bad.note(index, error);
                 gather(self.layout, self.before, index, state);
                 stress.fill(f64::NAN);
                 tangent.fill(f64::NAN);
@@ -256,10 +238,17 @@ impl Batch<'_> {
     ) -> Result<(), InelasticError> {
         let DeformationIncrement { from, to, dt, .. } = self.increment;
         let to = deformation(&to[index])?;
-        let advanced = step(self.law, state, [&deformation(&from[index])?, &to], dt, &self.control)?;
-        conversions::stress(&advanced.first_piola, self.stress, &to, stress);
-        if let Some((measure, numbering)) = self.tangent {
-            conversions::tangent(&advanced, measure, numbering, &to, tangent);
+        let path = [&deformation(&from[index])?, &to];
+        match self.tangent {
+            None => {
+                let (first_piola, _) = self.law.advance_stress(state, path, dt, &self.control)?;
+                conversions::stress(&first_piola, self.stress, &to, stress);
+            }
+            Some((measure, numbering)) => {
+                let advanced = self.law.advance(state, path, dt, &self.control)?;
+                conversions::stress(&advanced.first_piola, self.stress, &to, stress);
+                conversions::tangent(&advanced, measure, numbering, &to, tangent);
+            }
         }
         match stress.iter().chain(&*tangent).position(|x| !x.is_finite()) {
             Some(index) => {
@@ -269,18 +258,6 @@ impl Batch<'_> {
             None => Ok(()),
         }
     }
-}
-
-/// An increment of one point, here alone: laws are compiled into this function once.
-#[inline(never)]
-fn step(
-    law: &AnyInelastic,
-    state: &mut [f64],
-    path: [&DeformationGradient; 2],
-    dt: f64,
-    control: &StepControl,
-) -> Result<AnyAdvanced, InelasticError> {
-    law.advance(state, path, dt, control)
 }
 
 /// F of nine numbers by rows.

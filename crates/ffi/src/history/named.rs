@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 use super::text::history_from_value;
 use crate::FfiError;
 use crate::error::{check_finite, check_length};
-use crate::named::{Resolved, list, words};
+use crate::named::{Resolved, in_order, list, words};
 
 /// Parameters of a law: the object that they stand in, nothing for the law itself; the name; how many numbers, a list for more than one.
 type Own = (&'static str, &'static str, usize);
@@ -187,19 +187,8 @@ pub fn history_with_names(name: &str, names: &[&str], values: &[f64]) -> Result<
         what,
         valid: list(own.iter().map(String::as_str)),
     };
-    let mut in_order = Vec::with_capacity(own.len());
-    for wanted in &own {
-        let mut found = names.iter().zip(values).filter(|(name, _)| *name == wanted);
-        let (_, value) = found.next().ok_or_else(|| wrong(wanted, "is missing"))?;
-        if found.next().is_some() {
-            return Err(wrong(wanted, "is given twice"));
-        }
-        in_order.push(*value);
-    }
-    match names.iter().find(|name| !own.iter().any(|own| own == *name)) {
-        Some(unknown) => Err(wrong(unknown, "is unknown")),
-        None => law.with_values(&in_order),
-    }
+    let own: Vec<&str> = own.iter().map(String::as_str).collect();
+    law.with_values(&in_order(&own, |number, name| own[number] == name, names, values, wrong)?)
 }
 
 /// The number of internal variables of the law with this name, whatever its parameters are.

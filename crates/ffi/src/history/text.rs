@@ -54,7 +54,14 @@ pub fn history_from_json(text: &str) -> Result<AnyInelastic, FfiError> {
 /// # Ok::<(), piola_ffi::FfiError>(())
 /// ```
 pub fn history_from_fit(text: &str, model: Option<&str>) -> Result<AnyInelastic, FfiError> {
-    let entry = Entry::of(text, model)?;
+    history_of(&Entry::of(text, model)?)
+}
+
+/// The models of a fit that are laws with history.
+pub(crate) const FITTED: [&str; 4] = ["bergstrom-boyce", "reese-govindjee", "ogden-roxburgh", "viscoplastic"];
+
+/// The law of an entry of a fit.
+pub(crate) fn history_of(entry: &Entry) -> Result<AnyInelastic, FfiError> {
     let value = |name: &str| {
         let found = entry.parameters.iter().find(|(known, _)| known == name);
         found.map(|(_, value)| *value).ok_or_else(|| FfiError::WrongParameter {
@@ -108,8 +115,8 @@ pub fn history_from_fit(text: &str, model: Option<&str>) -> Result<AnyInelastic,
             })
         }
         _ => {
-            let valid = "bergstrom-boyce, reese-govindjee, ogden-roxburgh, viscoplastic".to_owned();
-            return Err(FfiError::UnknownChoice { choice: "law with history of a fit", given: entry.model, valid });
+            let (given, valid) = (entry.model.clone(), FITTED.join(", "));
+            return Err(FfiError::UnknownChoice { choice: "law with history of a fit", given, valid });
         }
     };
     history_from_value(law)

@@ -41,7 +41,7 @@ contains
       transfer(tangent, [0_int64])
   end subroutine
 
-  ! UMAT with all its arguments; the time step that it asks for is printed where it is smaller.
+  ! UMAT with all its arguments and one state variable, which an elastic law leaves alone.
   subroutine umat_at(name, props, f, nshr, stress, tangent)
     character(len=*), intent(in) :: name
     real(real64), intent(in) :: props(:), f(3, 3)
@@ -52,7 +52,7 @@ contains
     real(real64) :: sse, spd, scd, rpl, drpldt, dtime, temperature, pnewdt, length
     integer :: steps(4)
     cmname = name
-    state = 0; flow = 0; strain = 0; time = 0; field = 0; place = 0; turn = 0
+    state = 7; flow = 0; strain = 0; time = 0; field = 0; place = 0; turn = 0
     sse = 0; spd = 0; scd = 0; rpl = 0; drpldt = 0; dtime = 1; temperature = 0; pnewdt = 1; length = 1
     steps = 1
     stress = 0
@@ -60,6 +60,7 @@ contains
     call umat(stress, state, tangent, sse, spd, scd, rpl, flow, flow, drpldt, strain, strain, time, dtime, temperature, &
       temperature, field, field, cmname, 3, nshr, 3 + nshr, 1, props, size(props), place, turn, pnewdt, length, f, f, &
       1, 1, 1, 1, steps, 1)
+    if (state(1) /= 7) write (*, '(a)') 'the state has changed'
     if (pnewdt < 1) write (*, '(a,f5.2)') 'smaller', pnewdt
   end subroutine
 
@@ -69,21 +70,23 @@ contains
     integer, parameter :: n = 7
     real(real64) :: stretch(n, 3 + nshr), increment(n, 3 + nshr), stress(n, 3 + nshr), old(n, 3 + nshr)
     real(real64) :: gradient(n, 3 + 2*nshr), one(n), energy(n), place(n, 3), spin(n, nshr), props(3)
+    real(real64) :: state(n), spent(n)
     character(len=80) :: cmname
     integer :: i
     props = [0.5_real64, 0.25_real64, 1.0_real64]
     cmname = 'MOONEY_RIVLIN'
-    stretch = 0; old = 0; gradient = 0; one = 1; energy = 0; place = 0; spin = 0; stress = 0
+    stretch = 0; old = 0; gradient = 0; one = 1; energy = 0; spent = 0; place = 0; spin = 0; stress = 0
     do i = 1, n
       stretch(i, 1:3) = [1.0_real64 + 0.1_real64*i, 1.0_real64, 1.0_real64 - 0.05_real64*i]
       stretch(i, 4:) = 0.02_real64*i
     end do
     increment = 1.0e-3_real64*stretch
     call vumat(n, 3, nshr, 1, 1, 3, 0, 1.0_real64, 1.0_real64, 1.0_real64, cmname, place, one, props, one, increment, spin, &
-      one, stretch, gradient, one, old, one, energy, energy, one, stretch, gradient, one, stress, one, energy, one)
+      one, stretch, gradient, one, old, one, energy, spent, one, stretch, gradient, one, stress, state, energy, spent)
+    if (any(state /= 1)) write (*, '(a)') 'the states were not kept'
     write (*, '(a,1x,i0,*(1x,z16.16))') 'vumat', nshr, transfer(stretch, [0_int64]), transfer(stress, [0_int64])
     call vumat(n, 3, nshr, 1, 1, 3, 0, 0.0_real64, 0.0_real64, 1.0_real64, cmname, place, one, props, one, increment, spin, &
-      one, stretch, gradient, one, old, one, energy, energy, one, stretch, gradient, one, stress, one, energy, one)
+      one, stretch, gradient, one, old, one, energy, spent, one, stretch, gradient, one, stress, state, energy, spent)
     write (*, '(a,1x,i0,*(1x,z16.16))') 'start', nshr, transfer(increment, [0_int64]), transfer(stress, [0_int64])
   end subroutine
 

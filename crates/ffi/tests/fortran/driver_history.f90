@@ -85,26 +85,29 @@ contains
     integer, intent(in) :: nstatev
     integer, parameter :: n = 7
     real(real64) :: old(n, 6), new(n, 6), increment(n, 6), stress(n, 6), before(n, 6), gradient(n, 9), one(n), energy(n)
+    real(real64) :: spent(n)
     real(real64) :: place(n, 3), spin(n, 3), states(n, nstatev), after(n, nstatev)
     character(len=80) :: cmname
     integer :: i, step
     cmname = name
     old = 0; old(:, 1:3) = 1
-    increment = 1.0e-3_real64; before = 0; gradient = 0; one = 1; energy = 0; place = 0; spin = 0; stress = 0; states = 0
+    increment = 1.0e-3_real64; before = 0; gradient = 0; one = 1; energy = 0; spent = 0; place = 0
+    spin = 0; stress = 0; states = 0
     call vumat(n, 3, 3, nstatev, 1, size(props), 0, 0.0_real64, 0.0_real64, 1.0_real64, cmname, place, one, props, one, &
-      increment, spin, one, old, gradient, one, before, states, energy, energy, one, old, gradient, one, stress, after, &
-      energy, one)
+      increment, spin, one, old, gradient, one, before, states, energy, spent, one, old, gradient, one, stress, after, &
+      energy, spent)
     write (*, '(a,*(1x,z16.16))') 'start', transfer(stress, [0_int64]), transfer(after, [0_int64])
+    energy = 0
     do step = 1, 2
       do i = 1, n
         new(i, 1:3) = [1.0_real64 + 0.05_real64*i*step, 1.0_real64, 1.0_real64 - 0.02_real64*i*step]
         new(i, 4:) = 0.01_real64*i*step
       end do
       call vumat(n, 3, 3, nstatev, 1, size(props), 0, 1.0_real64, 1.0_real64, 0.25_real64, cmname, place, one, props, one, &
-        increment, spin, one, old, gradient, one, before, states, energy, energy, one, new, gradient, one, stress, after, &
-        energy, one)
+        increment, spin, one, old, gradient, one, before, states, energy, spent, one, new, gradient, one, stress, after, &
+        energy, spent)
       write (*, '(a,*(1x,z16.16))') 'vumat', transfer(new, [0_int64]), transfer(stress, [0_int64]), &
-        transfer(after, [0_int64])
+        transfer(after, [0_int64]), transfer(energy, [0_int64])
       states = after; old = new; before = stress
     end do
   end subroutine

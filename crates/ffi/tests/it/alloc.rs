@@ -1,6 +1,6 @@
 //! Evaluations allocate nothing.
 
-use piola_ffi::abaqus::{umat, vumat};
+use piola_ffi::abaqus::{PointIncrement, Stretching, umat, vumat};
 use piola_ffi::materials::material;
 use piola_ffi::points::{StressMeasure, TangentMeasure, VoigtNumbering, stress, stress_and_tangent};
 use piola_testkit::allocations_in;
@@ -24,8 +24,10 @@ fn stresses_tangents_and_materials_allocate_nothing() {
     let stretches = [1.0, 1.1, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     let (counted, ()) = allocations_in(|| {
         let law = material("MOONEY_RIVLIN", &properties).unwrap();
-        umat(&law, [3, 3], &f[0], &mut stresses, &mut tangent).unwrap();
-        vumat(&law, [3, 3], &stretches, 0.0, &mut corotated).unwrap();
+        let increment = PointIncrement { f: [&f[0], &f[0]], dt: 1.0, temperature: 0.0 };
+        umat(&law, [3, 3], increment, &mut [], &mut stresses, &mut tangent).unwrap();
+        let stretching = Stretching { before: &[], after: &stretches, added: 0.0, dt: 1.0, temperatures: &[] };
+        vumat(&law, [3, 3], stretching, (&[], &mut []), &mut corotated).unwrap();
     });
     assert_eq!(counted, 0);
     assert_eq!(*first, *material("MOONEY_RIVLIN", &properties).unwrap());

@@ -12,10 +12,9 @@ use piola::inelastic::{AnyInelastic, StepControl};
 use piola::numerics::linear::matrix3::from_rows;
 use piola::tensor::voigt::{Abaqus, StiffnessMatrix, StressVector};
 use piola_ffi::FfiError;
+use piola_ffi::abaqus::{Stretching, vumat};
 use piola_ffi::c::PiolaStatus;
-use piola_ffi::c::history::{piola_history_umat, piola_history_vumat};
-
-use piola_ffi::history::abaqus::{Stretching, vumat};
+use piola_ffi::c::abaqus::{piola_umat, piola_vumat};
 use piola_ffi::named::history;
 
 use crate::history::{LAWS, laws};
@@ -43,7 +42,7 @@ impl<'a> Element<'a> {
         let (mut stress, mut tangent) = (vec![0.0; count], vec![0.0; count * count]);
         // SAFETY: a padded name and arrays as long as said.
         let status = unsafe {
-            piola_history_umat(
+            piola_umat(
                 self.name.as_ptr().cast(),
                 80,
                 self.properties.as_ptr(),
@@ -201,7 +200,7 @@ fn vumat_gives_the_corotated_stresses_of_umat_and_its_states() {
             let (mut new, mut stresses) = (vec![7.0; length * POINTS], vec![0.0; 6 * POINTS]);
             // SAFETY: a padded name and arrays as long as said.
             let status = unsafe {
-                piola_history_vumat(
+                piola_vumat(
                     name.as_ptr().cast(),
                     80,
                     named.1.as_ptr(),
@@ -257,7 +256,7 @@ fn vumat_of_small_strains_in_no_time_is_elastic() {
     let (old, mut new, mut stress) = ([0.0; 10], [7.0; 10], [0.0; 4]);
     // SAFETY: a padded name and arrays as long as said.
     let status = unsafe {
-        piola_history_vumat(
+        piola_vumat(
             padded.as_ptr().cast(),
             80,
             values.as_ptr(),
@@ -313,7 +312,7 @@ fn thermal_strains_follow_the_temperatures_of_abaqus() {
         assert!((stress[0] - expected).abs() < 1e-14, "{temperature}: {} {expected}", stress[0]);
         assert_eq!(element.state, [temperature]);
         let (stretching, mut new, mut stresses) = ([1.0, 1.0, 1.0, 0.0], [7.0], [0.0; 4]);
-        let law = history(name, &properties).unwrap();
+        let law = history(name, &properties).unwrap().into();
         let given = Stretching { before: &[], after: &stretching, added: 0.0, dt: 0.5, temperatures: &[temperature] };
         vumat(&law, [3, 1], given, (&[0.0], &mut new), &mut stresses).unwrap();
         assert!((stresses[0] - expected).abs() < 1e-14 && new == [temperature]);
@@ -324,7 +323,7 @@ fn thermal_strains_follow_the_temperatures_of_abaqus() {
     let (stress, tangent) = elastic.increment(&f, 0.5).unwrap();
     let law = piola_ffi::named::solid("hencky-lame", &[2.0, 3.0]).unwrap();
     let (mut expected, mut square) = ([0.0; 6], [0.0; 36]);
-    piola_ffi::abaqus::umat(&law, [3, 3], f.as_slice().first_chunk().unwrap(), &mut expected, &mut square).unwrap();
+    crate::abaqus::umat_of(&law, [3, 3], f.as_slice().first_chunk().unwrap(), &mut expected, &mut square).unwrap();
     for (x, y) in stress.iter().zip(&expected).chain(tangent.iter().zip(&square)) {
         assert!((x - y).abs() < 1e-12, "{x} {y}"); // two ways through P and ∂P/∂F of some 7
     }
@@ -334,7 +333,7 @@ fn thermal_strains_follow_the_temperatures_of_abaqus() {
 #[test]
 fn vumat_counts_failures_of_all_blocks_and_refuses_before_it_writes() {
     const POINTS: usize = 200;
-    let law = history(LAWS[1].0, LAWS[1].1).unwrap();
+    let law = history(LAWS[1].0, LAWS[1].1).unwrap().into();
     let mut after = [vec![1.01; 3 * POINTS], vec![0.0; 3 * POINTS]].concat();
     for point in [70, 71, 150] {
         after[point] = 0.0; // U₁₁
@@ -361,7 +360,7 @@ fn vumat_refuses_outputs_that_overlap() {
     let mut call = |shift: usize| {
         // SAFETY: a padded name and arrays as long as said; the states overlap for shifts below 10, which is what is refused.
         unsafe {
-            piola_history_vumat(
+            piola_vumat(
                 padded.as_ptr().cast(),
                 80,
                 values.as_ptr(),
@@ -406,15 +405,17 @@ fn umat_and_vumat_of_fortran_return_the_bits_of_the_library() {
     let folder = crate_folder();
     let include = format!("-I{}", folder.join("tests/fortran").display());
     let flags = ["-O1", "-ffp-contract=off", "-Wall", "-Wno-unused-dummy-argument", &include];
-    let files = ["fortran/umat_history.f", "fortran/vumat_history.f", "tests/fortran/driver_history.f90"];
+    let files = ["fortran/umat.f", "fortran/vumat.f", "tests/fortran/driver_history.f90"];
     let sources = files.map(|file| folder.join(file));
     let text = printed(&compiled("gfortran", "fortran_history", &flags, &sources), &[]);
     let of_viscous = [1.0, 5.0, 2.0, 8.0, 0.75, 0.0];
     let viscous = history("reese_govindjee-neo_hookean-simo_taylor-hencky-lame", &of_viscous).unwrap();
     let of_plastic = [2.0, 3.0, 0.25, 0.5, 0.25, 0.125, 0.5, 4.0, 1.5, 0.0];
     let plastic = history("kinematic-hencky-lame-neo_hookean-simo_taylor", &of_plastic).unwrap();
+    let material = viscous.clone().into();
     let (mut points, mut blocks) = (0, 0);
     let (mut last, mut state, mut before) = (String::new(), Vec::new(), DeformationGradient::identity());
+    let (mut work, mut stress_before) = ([0.0; 7], vec![0.0; 42]);
     let (mut old, mut stretches) = (vec![0.0; 63], [[1.0; 21].as_slice(), &[0.0; 21]].concat());
     for line in text.lines() {
         let words: Vec<&str> = line.split_whitespace().collect();
@@ -444,9 +445,19 @@ fn umat_and_vumat_of_fortran_return_the_bits_of_the_library() {
                 let (new, found) = found.split_at(42);
                 let (mut stresses, mut states) = (vec![0.0; 42], vec![0.0; 63]);
                 let stretching = Stretching { before: &stretches, after: new, added: 0.0, dt: 0.25, temperatures: &[] };
-                vumat(&viscous, [3, 3], stretching, (&old, &mut states), &mut stresses).unwrap();
+                vumat(&material, [3, 3], stretching, (&old, &mut states), &mut stresses).unwrap();
+                let (found, energy) = found.split_at(105);
                 assert_eq!(found, [&stresses[..], &states].concat());
-                (old, stretches) = (states, new.to_vec());
+                // Work of the mean stress on the strain increments of the driver, at the density 1.
+                for (point, energy) in energy.iter().enumerate() {
+                    for k in 0..6 {
+                        let factor = if k < 3 { 0.5 } else { 1.0 };
+                        work[point] += factor * (stress_before[7 * k + point] + stresses[7 * k + point]) * 1e-3;
+                    }
+                    let tolerance = 8.0 * f64::EPSILON * work[point].abs(); // two orders of a sum of six terms
+                    assert!((energy - work[point]).abs() <= tolerance, "{energy} {}", work[point]);
+                }
+                (old, stretches, stress_before) = (states, new.to_vec(), stresses);
                 blocks += 1;
             }
             ["start", ref rest @ ..] => {
@@ -454,7 +465,7 @@ fn umat_and_vumat_of_fortran_return_the_bits_of_the_library() {
                 let (mut stresses, mut states) = (vec![0.0; 42], vec![0.0; 63]);
                 let stretching =
                     Stretching { before: &stretches, after: &strains, added: 1.0, dt: 0.0, temperatures: &[] };
-                vumat(&viscous, [3, 3], stretching, (&old, &mut states), &mut stresses).unwrap();
+                vumat(&material, [3, 3], stretching, (&old, &mut states), &mut stresses).unwrap();
                 assert_eq!(found, [&stresses[..], &states].concat());
                 blocks += 1;
             }

@@ -18,6 +18,7 @@ fn allocations_in_updates_equal_zero() -> Result<(), Box<dyn Error>> {
         let _ = black_box(InelasticPoint::new(&plastic).advance(&to, 0.1, &StepControl::one_step()));
         let _ = black_box(InelasticPoint::new(&back).advance(&to, 0.1, &StepControl::one_step()));
         let _ = black_box(InelasticPoint::new(&damaged).advance(&to, 0.1, &StepControl::default()));
+        let _ = black_box(InelasticPoint::new(&flowing).advance_stress(&to, 0.1, &StepControl::default()));
     });
     assert_eq!(count, 0);
     Ok(())

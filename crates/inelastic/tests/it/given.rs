@@ -3,15 +3,61 @@
 use core::error::Error;
 
 use piola_continuum::DeformationGradient;
-use piola_inelastic::{GivenGrowth, Grown, InelasticError, InelasticPoint, StepControl, Thermal, ThermalExpansion};
+use piola_inelastic::{
+    Evolution, GivenGrowth, Grown, InelasticError, InelasticPoint, StepControl, Thermal, ThermalExpansion,
+};
 use piola_numerics::linear::matrix3::from_rows;
 use piola_solids::{Hyperelastic, NeoHookeanCiarlet, SolidsError};
+use piola_testkit::golden::{self, matrix, number, text, vector};
 use piola_testkit::{Tol, assert_close_at_scale};
+use serde_json::Value;
 
 type Fallible = Result<(), Box<dyn Error>>;
 
 fn deformation() -> Result<DeformationGradient, Box<dyn Error>> {
     Ok(DeformationGradient::from_rows([[1.2, 0.25, 0.0], [0.0, 0.9, 0.1], [0.05, 0.0, 1.05]])?)
+}
+
+/// Follows a path of `grown_paths.json`: the user writes the state, which `state` reads, before each increment.
+fn follow<L: Evolution<S, X>, const S: usize, const X: usize>(
+    name: &str,
+    law: &L,
+    state: impl Fn(&Value) -> Vec<f64>,
+) -> Result<usize, Box<dyn Error>> {
+    let golden = golden::load("grown_paths");
+    let mut before = DeformationGradient::identity();
+    let mut count = 0;
+    for leg in golden.cases.iter().filter(|case| text(&case["law"]) == name) {
+        let to = deformation_of(&leg["input"]["to"])?;
+        let mut point = InelasticPoint::with_state(law, &state(&leg["input"]), &before)?;
+        let found = point.advance(&to, 0.5, &StepControl::default())?;
+        let tol = Tol::ulps_because(256.0, "F G⁻¹, the stress of the law, and two products with G⁻¹");
+        let close = |what: &str, found: &[f64], expected: &Value| {
+            let expected = vector(expected);
+            let scale = expected.iter().fold(1.0_f64, |size, x| size.max(x.abs()));
+            assert_close_at_scale(&format!("{}: {what}", text(&leg["id"])), found, &expected, scale, tol);
+        };
+        close("P", found.first_piola.0.transpose().as_slice(), &leg["output"]["P"]);
+        close("∂P/∂F", found.tangent.0.components.as_flattened(), &leg["output"]["tangent"]);
+        (before, count) = (to, count + 1);
+    }
+    Ok(count)
+}
+
+fn deformation_of(value: &Value) -> Result<DeformationGradient, Box<dyn Error>> {
+    let rows = matrix(value);
+    Ok(DeformationGradient::from_rows(core::array::from_fn(|i| core::array::from_fn(|j| rows[i][j])))?)
+}
+
+/// Central differences of the energy at 100 digits.
+#[test]
+fn stresses_and_tangents_along_paths_of_growth_and_temperature_equal_the_reference() -> Fallible {
+    let law = NeoHookeanCiarlet::with_constants(1.0, 5.0)?;
+    assert_eq!(follow("given_growth", &GivenGrowth::new(law), |input| matrix(&input["growth"]).concat())?, 4);
+    let expansion = ThermalExpansion { coefficient: 1.0 / 1024.0, reference_temperature: 300.0 };
+    let thermal = Thermal::new(law, expansion)?;
+    assert_eq!(follow("thermal", &thermal, |input| vec![number(&input["temperature"])])?, 4);
+    Ok(())
 }
 
 #[test]

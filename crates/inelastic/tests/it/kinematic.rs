@@ -59,6 +59,23 @@ fn a_back_stress_of_nothing_leaves_the_viscoplastic_solid() -> Fallible {
     Ok(())
 }
 
+/// A change of the volume neither loads nor unloads a body at its yield stress, and rounding decides whether it flows.
+#[test]
+fn neutral_loads_take_few_parts_and_leave_the_state() -> Fallible {
+    let (law, control) = (kinematic(0.0)?, StepControl::new(1e-10)?);
+    let mut point = InelasticPoint::new(&law);
+    let sheared = DeformationGradient::simple_shear(0.4)?;
+    let state = point.advance(&sheared, 1.0, &control)?.state;
+    for factor in [1.1, 0.9, 1.3, 1.0, 1.0] {
+        let to = DeformationGradient::new(sheared.matrix() * factor)?;
+        let found = point.advance(&to, 1.0, &control)?;
+        assert!(found.effort.parts < 300, "{:?}", found.effort);
+        let tol = Tol::stated(1e-9, "parts of 1e-10 each, and rounding");
+        assert_close_at_scale("state", &found.state, &state, 1.0, tol);
+    }
+    Ok(())
+}
+
 /// Flow changes neither of the inelastic volumes.
 #[test]
 fn loads_to_and_fro_keep_the_inelastic_volumes() -> Fallible {

@@ -4,10 +4,15 @@ use core::error::Error;
 
 use nalgebra::Matrix3;
 use piola_continuum::DeformationGradient;
-use piola_inelastic::{Evolution, InelasticPoint, OverHistory, StepControl};
+use piola_inelastic::{
+    Evolution, GivenGrowth, InSeries, InelasticPoint, OverHistory, StepControl, Thermal, ThermalExpansion,
+};
+use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
+use piola_solids::{Hencky, NeoHookeanCiarlet};
 use piola_specimens::checks::{Search, history_indifference};
 use piola_testkit::spectral::{Random, with_stretches};
+use piola_testkit::strategies::random_cases;
 use piola_testkit::{Tol, assert_close};
 
 use super::paths::{bergstrom_boyce, driven_growth, kinematic, mullins, reese_govindjee, viscoplastic};
@@ -15,7 +20,7 @@ use super::paths::{bergstrom_boyce, driven_growth, kinematic, mullins, reese_gov
 type Fallible = Result<(), Box<dyn Error>>;
 
 /// A path of random deformations with stretches between 0.75 and 1.35.
-fn path(seed: u64, count: usize) -> Vec<DeformationGradient> {
+pub(crate) fn path(seed: u64, count: usize) -> Vec<DeformationGradient> {
     let mut random = Random::new(seed);
     let one = |random: &mut Random| {
         let stretches = core::array::from_fn(|_| (0.3 * random.symmetric()).exp());
@@ -27,7 +32,8 @@ fn path(seed: u64, count: usize) -> Vec<DeformationGradient> {
 }
 
 fn check_dissipation<L: Evolution<S, X>, const S: usize, const X: usize>(what: &str, law: &L) -> Fallible {
-    for seed in 30..36 {
+    // A thousand and twenty increments.
+    for seed in 30..30 + u64::from(random_cases(170)) {
         let mut point = InelasticPoint::new(law);
         for to in path(seed, 6) {
             let before = *point.state();
@@ -45,14 +51,16 @@ fn dissipation_of_steps_on_random_paths_is_not_negative() -> Fallible {
     check_dissipation("Reese–Govindjee", &reese_govindjee()?)?;
     check_dissipation("viscoplastic", &viscoplastic(0.5)?)?;
     check_dissipation("plastic", &viscoplastic(0.0)?)?;
-    check_dissipation("kinematic", &kinematic(0.0)?)
+    check_dissipation("kinematic", &kinematic(0.0)?)?;
+    check_dissipation("kinematic, viscous", &kinematic(0.5)?)?;
+    check_dissipation("in series", &in_series()?)
 }
 
 /// Work of a closed path that ends where it began, by the trapezoidal rule: Mullins' law stores nothing that it does not give back.
 #[test]
 fn work_of_mullins_law_on_closed_random_paths_is_not_negative() -> Fallible {
     let law = mullins()?;
-    for seed in 40..44 {
+    for seed in 40..40 + u64::from(random_cases(40)) {
         let mut point = InelasticPoint::new(&law);
         let mut corners = path(seed, 4);
         corners.push(DeformationGradient::identity());
@@ -108,35 +116,74 @@ fn check_observer<L: Evolution<S, X>, const S: usize, const X: usize>(what: &str
 fn stresses_seen_by_two_observers_are_those_of_one_turned() -> Fallible {
     check_observer("Bergström–Boyce", &bergstrom_boyce()?)?;
     check_observer("Reese–Govindjee", &reese_govindjee()?)?;
+    check_observer("in series", &in_series()?)?;
+    check_observer("viscoplastic", &viscoplastic(0.5)?)?;
     check_observer("driven growth", &driven_growth()?)?;
+    check_observer("given growth", &GivenGrowth::new(spring()?))?;
+    check_observer("thermal", &thermal()?)?;
     check_observer("Mullins", &mullins()?)
+}
+
+fn spring() -> Result<NeoHookeanCiarlet, Box<dyn Error>> {
+    Ok(NeoHookeanCiarlet::with_constants(1.0, 5.0)?)
+}
+
+pub(crate) fn in_series() -> Result<InSeries<NeoHookeanCiarlet, Hencky>, Box<dyn Error>> {
+    Ok(InSeries::new(spring()?, Hencky::new(3.0, 2.0)?, 0.5)?)
+}
+
+pub(crate) fn thermal() -> Result<Thermal<NeoHookeanCiarlet>, Box<dyn Error>> {
+    let expansion = ThermalExpansion { coefficient: 1e-3, reference_temperature: 300.0 };
+    Ok(Thermal::new(spring()?, expansion)?)
+}
+
+/// A body that is hot, or has grown, from the start.
+struct Begun<L, const S: usize>(L, [f64; S]);
+
+impl<L: Evolution<S, X>, const S: usize, const X: usize> Evolution<S, X> for Begun<L, S> {
+    fn initial(&self) -> [f64; S] {
+        self.1
+    }
+    fn residual<T: Real>(&self, from: &[T; S], f: &[[T; 3]; 3], x: &[T; X], dt: f64) -> [T; X] {
+        self.0.residual(from, f, x, dt)
+    }
+    fn updated<T: Real>(&self, from: &[T; S], f: &[[T; 3]; 3], x: &[T; X], dt: f64) -> [T; S] {
+        self.0.updated(from, f, x, dt)
+    }
+    fn first_piola<T: Real>(&self, f: &[[T; 3]; 3], state: &[T; S]) -> [[T; 3]; 3] {
+        self.0.first_piola(f, state)
+    }
 }
 
 /// The checker's observers spin while the body deforms: with one step for each of its times the law sees only their places.
 #[test]
 fn the_checker_of_histories_finds_no_dependence_on_the_observer() -> Fallible {
-    let search = Search { samples: 10, strain: 0.15, ..Search::default() };
-    let plastic = viscoplastic(0.0)?;
-    let material = OverHistory::new(&plastic, 1.0, 20, StepControl::one_step())?;
-    let report = history_indifference(&material, 1.0, &search);
-    assert!(report.passes(), "{report:?}, {:?}", material.failure());
-    let kinematic = kinematic(0.0)?;
-    let material = OverHistory::new(&kinematic, 1.0, 10, StepControl::one_step())?;
-    let report = history_indifference(&material, 1.0, &search);
-    assert!(report.passes(), "{report:?}, {:?}", material.failure());
-    let flowing = bergstrom_boyce()?;
-    let material = OverHistory::new(&flowing, 1.0, 20, StepControl::one_step())?;
-    let report = history_indifference(&material, 1.0, &search);
-    assert!(report.passes(), "{report:?}, {:?}", material.failure());
-    Ok(())
+    fn check<L: Evolution<S, X>, const S: usize, const X: usize>(what: &str, law: &L, steps: u32) -> Fallible {
+        let search = Search { samples: 10, strain: 0.15, ..Search::default() };
+        let material = OverHistory::new(law, 1.0, steps, StepControl::one_step())?;
+        let report = history_indifference(&material, 1.0, &search);
+        assert!(report.passes(), "{what}: {report:?}, {:?}", material.failure());
+        Ok(())
+    }
+    check("plastic", &viscoplastic(0.0)?, 20)?;
+    check("viscoplastic", &viscoplastic(0.5)?, 10)?;
+    check("kinematic", &kinematic(0.0)?, 10)?;
+    check("Bergström–Boyce", &bergstrom_boyce()?, 20)?;
+    check("Reese–Govindjee", &reese_govindjee()?, 10)?;
+    check("in series", &in_series()?, 10)?;
+    check("Mullins", &mullins()?, 20)?;
+    check("driven growth", &driven_growth()?, 20)?;
+    check("thermal", &Begun(thermal()?, [420.0]), 20)?;
+    let grown = [1.25, 0.125, 0.0, 0.0, 1.0, 0.25, 0.0, 0.0, 0.875];
+    check("given growth", &Begun(GivenGrowth::new(spring()?), grown), 20)
 }
 
-/// With η = 0, and in Mullins' law, the time of an increment does not matter.
+/// With η = 0, in Mullins' law, and behind growth and temperatures that are given, the time of an increment does not matter.
 #[test]
 fn stresses_of_laws_without_a_rate_do_not_depend_on_the_time() -> Fallible {
     fn check<L: Evolution<S, X>, const S: usize, const X: usize>(what: &str, law: &L) -> Fallible {
         let (mut slow, mut fast) = (InelasticPoint::new(law), InelasticPoint::new(law));
-        for to in path(60, 6) {
+        for to in (0..u64::from(random_cases(170))).flat_map(|seed| path(60 + seed, 6)) {
             let a = slow.advance(&to, 1e3, &StepControl::one_step())?;
             let b = fast.advance(&to, 1e-3, &StepControl::one_step())?;
             assert_eq!(a.first_piola, b.first_piola, "{what}");
@@ -145,6 +192,8 @@ fn stresses_of_laws_without_a_rate_do_not_depend_on_the_time() -> Fallible {
     }
     check("plastic", &viscoplastic(0.0)?)?;
     check("kinematic", &kinematic(0.0)?)?;
+    check("thermal", &thermal()?)?;
+    check("given growth", &GivenGrowth::new(spring()?))?;
     check("Mullins", &mullins()?)
 }
 

@@ -12,6 +12,7 @@ mod newton;
 mod paths;
 mod refusals;
 mod specimens;
+mod stress_alone;
 #[cfg(feature = "serde")]
 mod written;
 

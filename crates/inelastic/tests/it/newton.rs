@@ -4,9 +4,11 @@ use core::error::Error;
 
 use nalgebra::{Matrix2, Matrix3, Vector2};
 use piola_continuum::DeformationGradient;
-use piola_inelastic::{Evolution, InelasticPoint, StepControl};
+use piola_inelastic::{Evolution, GivenGrowth, InelasticPoint, StepControl};
+use piola_solids::Hencky;
 use piola_testkit::{Tol, assert_close};
 
+use super::laws::{in_series, thermal};
 use super::paths::{bergstrom_boyce, driven_growth, kinematic, mullins, reese_govindjee, viscoplastic};
 
 type Fallible = Result<(), Box<dyn Error>>;
@@ -59,12 +61,16 @@ fn consistent_tangents_equal_difference_quotients_of_the_stress() -> Fallible {
     check_tangent("Reese–Govindjee", &reese_govindjee()?, &one)?;
     check_tangent("driven growth", &driven_growth()?, &one)?;
     check_tangent("Mullins", &mullins()?, &one)?;
+    check_tangent("in series", &in_series()?, &one)?;
     check_tangent("Reese–Govindjee, extrapolated", &reese_govindjee()?, &controlled)?;
     check_tangent("driven growth, extrapolated", &driven_growth()?, &controlled)?;
     check_tangent("viscoplastic", &viscoplastic(0.5)?, &one)?;
     check_tangent("plastic", &viscoplastic(0.0)?, &one)?;
     check_tangent("kinematic, viscous", &kinematic(0.5)?, &one)?;
-    check_tangent("kinematic", &kinematic(0.0)?, &one)
+    check_tangent("kinematic", &kinematic(0.0)?, &one)?;
+    // The first increment begins to flow inside.
+    check_tangent("plastic, extrapolated", &viscoplastic(0.0)?, &controlled)?;
+    check_tangent("kinematic, extrapolated", &kinematic(0.0)?, &controlled)
 }
 
 /// Residuals of the free sides of a bar that is pulled, iteration by iteration.
@@ -107,5 +113,8 @@ fn newtons_method_for_free_sides_converges_quadratically_with_the_consistent_tan
     check_quadratic("kinematic, viscous", &residuals(&kinematic(0.5)?)?);
     check_quadratic("driven growth", &residuals(&driven_growth()?)?);
     check_quadratic("Mullins", &residuals(&mullins()?)?);
+    check_quadratic("in series", &residuals(&in_series()?)?);
+    check_quadratic("thermal", &residuals(&thermal()?)?);
+    check_quadratic("given growth", &residuals(&GivenGrowth::new(Hencky::new(3.0, 2.0)?))?);
     Ok(())
 }

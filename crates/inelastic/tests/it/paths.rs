@@ -117,6 +117,13 @@ fn kinematic_stress_and_state_equal_the_reference() -> Fallible {
     Ok(())
 }
 
+/// Each leg crosses the yield surface inside: it is elastic first and then flows.
+#[test]
+fn kinematic_stress_and_state_equal_the_reference_where_legs_cross_the_yield_surface() -> Fallible {
+    assert_eq!(follow_in("kinematic_paths", "kinematic_crossing", &kinematic(0.0)?)?, 2);
+    Ok(())
+}
+
 #[test]
 fn driven_growth_stress_equals_the_reference() -> Fallible {
     assert_eq!(follow("driven_growth", &driven_growth()?)?, 1);

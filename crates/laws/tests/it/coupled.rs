@@ -3,9 +3,11 @@
 use core::error::Error;
 
 use piola_continuum::{DeformationGradient, DisplacementGradient};
-use piola_laws::OfInvariants;
+
 use piola_laws::coupled::{GentCoupled, HolzapfelCoupled};
-use piola_solids::{Fibre, Hyperelastic, NeoHookeanLogarithmic, SolidsError, derived};
+use piola_laws::{OfInvariants, OfVolume, Sum};
+use piola_solids::volumetric::QuadraticLogarithmic;
+use piola_solids::{Fibre, Fung, Hyperelastic, NeoHookeanLogarithmic, SolidsError, Stiffness, derived};
 use piola_testkit::{Tol, assert_close};
 
 fn sample() -> DeformationGradient {
@@ -42,6 +44,8 @@ fn answers_of_coupled_laws_equal_derivatives_of_their_energies() -> Result<(), B
     }
     check("Gent", &OfInvariants(GentCoupled::new(0.8, 2.0, 3.0)?));
     check("Holzapfel", &OfInvariants(HolzapfelCoupled::new(0.8, 3.0, 5.0, 2.0, Fibre::new([1.0, 0.5, 0.0])?)?));
+    let tissue = Fung::new(1.5, Stiffness::isotropic(1.0, 2.0)?)?;
+    check("Fung with a volume term", &Sum(tissue, OfVolume(QuadraticLogarithmic::new(3.0)?)));
     Ok(())
 }
 

@@ -68,8 +68,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     // charts: the folder of the results.
     // images, by feature: files of images, for the command `register` alone.
     ("cli", &["ensemble", "forward", "images"]),
-    // The functions that other languages call.
-    ("ffi", &["piola"]),
+    // The functions that other languages call. document: units of stress in the summary of a fit.
+    ("ffi", &["piola", "document"]),
     // ffi: its safe half, laws at many points, compiled once for both. scene, by feature: motions run from a text.
     ("python", &["ffi", "scene"]),
     ("testkit", &["numerics"]),
