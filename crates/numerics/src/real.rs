@@ -153,6 +153,16 @@ pub trait Real:
     /// (sin x, cos x).
     #[must_use]
     fn sin_cos(self) -> (Self, Self);
+    /// Sines and cosines of eight angles; of `f64` and `f32` side by side, to 2 ulp, in much less time than one after the other.
+    #[must_use]
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn sin_cos_of_eight(angles: [Self; 8]) -> ([Self; 8], [Self; 8]) {
+        let (mut sines, mut cosines) = (angles, angles);
+        for k in 0..8 {
+            (sines[k], cosines[k]) = angles[k].sin_cos();
+        }
+        (sines, cosines)
+    }
     /// arcsin x ∈ [−π/2, π/2].
     #[must_use]
     fn asin(self) -> Self;
@@ -338,6 +348,11 @@ macro_rules! real_for_float {
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn sin_cos(self) -> (Self, Self) {
                 $float::sin_cos(self)
+            }
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn sin_cos_of_eight(angles: [Self; 8]) -> ([Self; 8], [Self; 8]) {
+                let (sines, cosines) = crate::Lanes(angles).sin_cos();
+                (sines.0, cosines.0)
             }
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn atan2(self, x: Self) -> Self {
