@@ -9,7 +9,6 @@ use piola_numerics::Real;
 use crate::link::{Link, Pair};
 use crate::tree::RigidTree;
 
-/// Freedoms side by side: a line of the cache of doubles.
 pub(crate) const EIGHT: usize = 8;
 
 /// Columns of a product that are summed at once.
@@ -25,7 +24,6 @@ pub(crate) const DENSE: usize = 128;
 pub(crate) struct Eight<T, const R: usize>(pub(crate) [[T; EIGHT]; R]);
 
 impl<T: Real, const R: usize> Eight<T, R> {
-    /// Zeros for so many freedoms.
     pub(crate) fn zeros(freedoms: usize) -> Vec<Self> {
         vec![Self([[T::zero(); EIGHT]; R]); freedoms.div_ceil(EIGHT)]
     }
@@ -88,7 +86,6 @@ fn product_of<T: Real, const R: usize>(k: usize, a: &[[T; EIGHT]], x: &[T; R]) -
     product(&at, x)
 }
 
-/// One where a bit is set, else zero.
 static MASKS: [Eight<f64, 1>; 256] = masks();
 
 const fn masks() -> [Eight<f64, 1>; 256] {
@@ -196,18 +193,21 @@ impl Relatives {
         &self.lists[first / FOUR]
     }
 
-    /// Of a link, eight after eight: freedoms nearer to the ground, and beyond.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of(&self, link: usize) -> &[[u8; 2]] {
         &self.bits[link * self.eights..(link + 1) * self.eights]
     }
 }
 
+/// The bits below each.
+const BELOW: [u8; EIGHT + 1] = [0, 1, 3, 7, 15, 31, 63, 127, 255];
+
 impl Link {
     /// The bits of its own freedoms among the eight of an index.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn bits(&self, eight: usize) -> u8 {
-        let below = |x: usize| ((1_u32 << x.saturating_sub(eight * EIGHT).min(EIGHT)) - 1) as u8;
-        below(self.v + self.kind.freedoms()) & !below(self.v)
+        let start = eight * EIGHT;
+        let end = (self.v + self.kind.freedoms()).saturating_sub(start).min(EIGHT);
+        BELOW[end] & !BELOW[self.v.saturating_sub(start).min(EIGHT)]
     }
 }
