@@ -51,7 +51,7 @@ pub(crate) fn six<T: Real>((a, b): Pair<T>) -> [T; 6] {
     [a[0], a[1], a[2], b[0], b[1], b[2]]
 }
 
-/// Scalars of which eight fit a register. Of others none is computed in vain.
+/// Scalars of which eight fit a register.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) const fn is_plain<T>() -> bool {
     size_of::<T>() <= size_of::<f64>()
@@ -106,14 +106,6 @@ const fn masks() -> [Eight<f64, 1>; 256] {
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn products<T: Real, const R: usize>(bits: u8, a: &[[T; EIGHT]], x: &[T; R]) -> [T; EIGHT] {
     let mut sums = [T::zero(); EIGHT];
-    if !is_plain::<T>() {
-        for k in 0..EIGHT {
-            if bits >> k & 1 == 1 {
-                sums[k] = product_of(k, a, x);
-            }
-        }
-        return sums;
-    }
     for k in 0..EIGHT {
         sums[k] = product_of(k, a, x);
     }

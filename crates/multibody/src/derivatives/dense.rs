@@ -9,7 +9,7 @@
 
 use piola_numerics::Real;
 
-use crate::freedoms::{EIGHT, Eight, FOUR, is_plain, products, put, write};
+use crate::freedoms::{EIGHT, Eight, FOUR, products, put, write};
 use crate::link::Link;
 use crate::tree::RigidTree;
 use crate::workspace::{ColumnVectors, Dense, TreeWorkspace};
@@ -109,9 +109,7 @@ fn rows<T: Real, const N: usize>(
             for (entries, own) in entries.iter().zip(own) {
                 for (sums, &gain) in sums.iter_mut().zip(&own.gain) {
                     for j in 0..EIGHT {
-                        if is_plain::<T>() || beyond >> j & 1 == 1 {
-                            sums[j] += gain * entries[j];
-                        }
+                        sums[j] += gain * entries[j];
                     }
                 }
             }
@@ -144,27 +142,12 @@ fn multiply<T: Real>(
     columns: &[[T; FOUR]],
 ) -> [[T; EIGHT]; FOUR] {
     let mut sums = [[T::zero(); EIGHT]; FOUR];
-    if is_plain::<T>() {
-        for (&k, four) in support.iter().zip(columns) {
-            let eight = &matrix[k * eights + b].0[0];
-            for c in 0..FOUR {
-                for r in 0..EIGHT {
-                    sums[c][r] += eight[r] * four[c];
-                }
-            }
-        }
-        return sums;
-    }
-    for r in 0..EIGHT {
-        let mut row = [T::zero(); FOUR];
-        for (&k, four) in support.iter().zip(columns) {
-            let entry = matrix[k * eights + b].0[0][r];
-            for c in 0..FOUR {
-                row[c] += entry * four[c];
-            }
-        }
+    for (&k, four) in support.iter().zip(columns) {
+        let eight = &matrix[k * eights + b].0[0];
         for c in 0..FOUR {
-            sums[c][r] = row[c];
+            for r in 0..EIGHT {
+                sums[c][r] += eight[r] * four[c];
+            }
         }
     }
     sums

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! M⁻¹ and its products come from the articulated inertias of the forward dynamics. Up to 128 freedoms M⁻¹ is found from the tips, and
-//! multiplies the other columns where these are not zero. Beyond, each column is solved along the tree.
+//! multiplies the other columns where these are not zero. Beyond, and for states in lanes, each column is solved along the tree.
 
 use piola_numerics::{Kernel, Mask, Real, dispatch};
 
@@ -15,7 +15,7 @@ use super::inverse::differentiate;
 use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_length};
 use crate::forward_dynamics::{pass_accelerations, pass_inwards, pass_outwards};
-use crate::freedoms::DENSE;
+use crate::freedoms::{DENSE, is_plain};
 use crate::link::{Elementary, Link};
 use crate::space::put_place;
 use crate::tree::RigidTree;
@@ -147,7 +147,7 @@ pub(crate) fn differentiate_accelerations<T: Real>(
     }
     differentiate(tree, work, v, acceleration, by_q, by_v, None);
     gains_in_space(tree, work, false);
-    if n <= DENSE {
+    if is_plain::<T>() && n <= DENSE {
         invert(tree, work, by_tau);
         multiply_columns(tree, &mut work.dense, [by_q, by_v]);
     } else {
