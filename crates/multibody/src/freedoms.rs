@@ -7,7 +7,6 @@ use core::iter;
 use piola_numerics::Real;
 
 use crate::link::{Link, Pair};
-use crate::tree::RigidTree;
 
 pub(crate) const EIGHT: usize = 8;
 
@@ -60,8 +59,8 @@ pub(crate) const fn is_plain<T>() -> bool {
 /// Whether entries are computed one after the other: for few freedoms, as what was just written cannot be read in eights without
 /// waiting, and for scalars of which eight do not fit a register.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) const fn is_paired<T>(tree: &RigidTree, most: usize) -> bool {
-    !is_plain::<T>() || tree.freedoms() <= most
+pub(crate) const fn is_paired<T>(freedoms: usize, most: usize) -> bool {
+    !is_plain::<T>() || freedoms <= most
 }
 
 /// Σ a_c x_c in triples of components.

@@ -114,7 +114,7 @@ pub(super) fn differentiate<T: Real>(
     by_v: &mut [T],
     mut by_a: Option<&mut [T]>,
 ) {
-    let is_paired = is_paired::<T>(tree, PAIRS);
+    let is_paired = is_paired::<T>(tree.freedoms, PAIRS);
     if tree.links.iter().any(|link| link.run != 1) {
         by_q.fill(T::zero());
         by_v.fill(T::zero());
@@ -293,7 +293,7 @@ fn outwards<T: Real, E: Elementary<T, N>, const N: usize>(
         let rate = motion_cross(parent_motion, s[k]);
         let second = add_pairs(motion_cross(parent_acceleration, s[k]), motion_cross(parent_motion, rate));
         let of = &mut vectors[link.v + k];
-        if !is_paired::<T>(tree, PAIRS) {
+        if !is_paired::<T>(tree.freedoms, PAIRS) {
             put(subspaces, link.v + k, 0, six(s[k]));
         }
         motions[link.v + k] = six(s[k]);
