@@ -18,7 +18,10 @@ impl<T: Real, const A: usize> Elementary<T, 1> for Revolute<A> {
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(link: &Link, q: &[T]) -> (About<T, A>, Vector<T>) {
-        let (sine, cosine) = q[link.q].sin_cos();
+        Self::place_by(link, q, q[link.q].sin_cos())
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn place_by(link: &Link, _q: &[T], (sine, cosine): (T, T)) -> (About<T, A>, Vector<T>) {
         (About { cosine, sine: T::lit(link.sign) * sine }, lit(link.origin))
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -57,8 +60,7 @@ impl<T: Real, const A: usize> Elementary<T, 1> for Revolute<A> {
 
 /// R_constant times a turn about z by the angle.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn turned_about_z<T: Real>(link: &Link, angle: T) -> AnyTurn<T> {
-    let (sine, cosine) = angle.sin_cos();
+fn turned_about_z<T: Real>(link: &Link, (sine, cosine): (T, T)) -> AnyTurn<T> {
     AnyTurn(About::<T, 2> { cosine, sine }.after(lit_matrix(link.turn)))
 }
 
@@ -73,7 +75,11 @@ impl<T: Real> Elementary<T, 1> for RevoluteTurned {
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(link: &Link, q: &[T]) -> (AnyTurn<T>, Vector<T>) {
-        (turned_about_z(link, q[link.q]), lit(link.origin))
+        Self::place_by(link, q, q[link.q].sin_cos())
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn place_by(link: &Link, _q: &[T], sine_cosine: (T, T)) -> (AnyTurn<T>, Vector<T>) {
+        (turned_about_z(link, sine_cosine), lit(link.origin))
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_angular(_link: &Link, x: [T; 1], angular: &mut Vector<T>) {
@@ -152,7 +158,7 @@ impl<T: Real> Elementary<T, 1> for Helical {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(link: &Link, q: &[T]) -> (AnyTurn<T>, Vector<T>) {
         let advance = scaled(T::lit(link.pitch) * q[link.q], lit(link.axis));
-        (turned_about_z(link, q[link.q]), add(lit(link.origin), advance))
+        (turned_about_z(link, q[link.q].sin_cos()), add(lit(link.origin), advance))
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_angular(_link: &Link, x: [T; 1], angular: &mut Vector<T>) {

@@ -16,6 +16,7 @@ mod factorisation;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 mod files;
 mod forward_dynamics;
+mod freedoms;
 mod group;
 mod inverse_dynamics;
 mod jacobian;

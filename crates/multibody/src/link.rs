@@ -117,6 +117,11 @@ pub(crate) trait Elementary<T: Real, const N: usize> {
     type Turn: Turning<T>;
     /// The turn and the child's origin in the parent's frame.
     fn place(link: &Link, q: &[T]) -> (Self::Turn, Vector<T>);
+    /// The same where the sine and the cosine of its first coordinate are there.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn place_by(link: &Link, q: &[T], _sine_cosine: (T, T)) -> (Self::Turn, Vector<T>) {
+        Self::place(link, q)
+    }
     /// Adds S_ω x.
     fn add_angular(link: &Link, x: [T; N], angular: &mut Vector<T>);
     /// Adds S_v x.

@@ -14,8 +14,9 @@ use piola_numerics::{Kernel, Real, dispatch};
 
 use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_length};
+use crate::freedoms::{EIGHT, Eight, is_plain, product, six};
 use crate::link::{Articulated, Elementary, Link};
-use crate::space::{Runs, SUBSPACE, add_symmetric, reference, subspaces};
+use crate::space::{Runs, add_symmetric, put_place, reference};
 use crate::spatial::{add, cross, lit, lit_symmetric, scaled, skew, sub, times, translated_inertia};
 use crate::tree::RigidTree;
 use crate::turn::Turning;
@@ -82,42 +83,23 @@ impl<T: Real> Kernel for MassMatrix<'_, T> {
 /// The mass matrix without checks.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn fill<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace<T>, q: &[T], out: &mut [T]) {
-    let TreeWorkspace { space, rows, composite, forces, .. } = work;
-    for (i, link) in tree.links.iter().enumerate() {
-        for_kind!(link.kind, begin::<T>(link, i + 1, q, space, forces, rows, composite));
+    let TreeWorkspace { space, composite, forces, turns, motions, .. } = work;
+    if is_plain::<T>() {
+        sines_and_cosines(q, turns);
     }
+    for (i, link) in tree.links.iter().enumerate() {
+        for_kind!(link.kind, begin::<T>(link, i + 1, q, turns, space, forces, motions, composite));
+    }
+    let reference = reference(space);
     if tree.links.iter().any(|link| link.run != 1) {
         out.fill(T::zero());
     }
-    let reference = reference(space);
     for (i, link) in tree.links.iter().enumerate().rev() {
-        for_kind!(link.kind, end::<T>(tree, link, i + 1, space, forces, composite, reference, rows, out));
+        for_kind!(link.kind, end::<T>(tree, link, i + 1, space, forces, composite, reference, motions, out));
     }
-    mirror(tree.freedoms, out);
 }
 
-/// The place of a link, its freedoms about the reference point, its own inertia.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn begin<T: Real, E: Elementary<T, N>, const N: usize>(
-    link: &Link,
-    state: usize,
-    q: &[T],
-    space: &mut [LinkInSpace<T>],
-    forces: &mut [LinkForces<T>],
-    rows: &mut Rows<T>,
-    composite: &mut [Composite<T>],
-) {
-    place::<T, E, N>(link, state, q, space, forces);
-    // The first link, whose origin it is, is there.
-    let reference = reference(space);
-    subspaces::<T, E, N>(link, &space[state], reference, rows);
-    let own = &mut composite[state];
-    own.mass = T::lit(link.mass);
-    own.moment = lit(link.moment);
-    own.inertia = lit_symmetric(link.inertia);
-}
-
-/// The columns of a link, which adds its composite inertia to its parent's.
+/// The columns and rows of a link, which adds its composite inertia to its parent's.
 #[cfg_attr(not(debug_assertions), inline(always))]
 #[expect(clippy::too_many_arguments, reason = "the parts of a workspace")]
 fn end<T: Real, E: Elementary<T, N>, const N: usize>(
@@ -128,28 +110,116 @@ fn end<T: Real, E: Elementary<T, N>, const N: usize>(
     forces: &[LinkForces<T>],
     composite: &mut [Composite<T>],
     reference: [T; 3],
-    rows: &Rows<T>,
+    motions: &[[T; 6]],
     out: &mut [T],
 ) {
-    column::<T, E, N>(tree, link, state, state, space, composite, reference, rows, out);
-    add_to_parent::<T, E, N>(link, state, forces, composite);
+    entries::<T, E, N>(tree, link, state, state, space, composite, reference, motions, out);
+    add_to_parent::<T, E, N>(tree, link, state, forces, composite);
 }
 
-/// Columns whose entries are copied to rows at once: a line of the cache of doubles.
-const BLOCK: usize = 8;
-
-/// Copies the entries (i, j), i < j, to (j, i): a block of columns at a time, so that each line of memory is written once.
+/// The entries of a link with the freedoms from the link `from` to the ground, which is this one or nearer to the ground.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn mirror<T: Real>(n: usize, out: &mut [T]) {
-    let mut first = 0;
-    while first < n {
-        let end = (first + BLOCK).min(n);
-        for i in 0..end {
-            for j in first.max(i + 1)..end {
-                out[i * n + j] = out[j * n + i];
-            }
+#[expect(clippy::too_many_arguments, reason = "the parts of a workspace")]
+pub(crate) fn entries<T: Real, E: Elementary<T, N>, const N: usize>(
+    tree: &RigidTree,
+    link: &Link,
+    state: usize,
+    from: usize,
+    space: &[LinkInSpace<T>],
+    composite: &[Composite<T>],
+    reference: [T; 3],
+    motions: &[[T; 6]],
+    out: &mut [T],
+) {
+    let (n, zero, here, beyond) = (tree.freedoms, T::zero(), &space[state], &composite[state]);
+    let m = [beyond.mass, zero, zero, beyond.mass, zero, beyond.mass];
+    let columns = E::columns(link, &Articulated { j: beyond.inertia, h: skew(beyond.moment), m });
+    let arm = sub(here.origin, reference);
+    let mut k = 0;
+    while k < N {
+        let (j, force) = (link.v + k, times(here.axes, columns[k].1));
+        let felt = six((add(times(here.axes, columns[k].0), cross(arm, force)), force));
+        join(tree, from, j, motions, &felt, out);
+        if from == state {
+            out[j * n + j] += T::lit(tree.armature[j]);
         }
-        first = end;
+        k += 1;
+    }
+}
+
+/// The entries of freedom j, which feels 𝕀 S_j, with those from a link to the ground, in its column and its row. Freedoms of the same
+/// joint beyond j are left to their own columns.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn join<T: Real>(tree: &RigidTree, from: usize, j: usize, s: &[[T; 6]], felt: &[T; 6], out: &mut [T]) {
+    let n = tree.freedoms;
+    for (first, end) in Runs::of(tree, from) {
+        for i in first..end.min(j + 1) {
+            let entry = product(&s[i], felt);
+            out[j * n + i] = entry;
+            out[i * n + j] = entry;
+        }
+    }
+}
+
+/// Of all coordinates, so that no angle is taken alone.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn sines_and_cosines<T: Real>(q: &[T], turns: &mut [Eight<T, 2>]) {
+    for (turns, q) in turns.iter_mut().zip(q.chunks(EIGHT)) {
+        let mut eight = [T::zero(); EIGHT];
+        for (angle, &q) in eight.iter_mut().zip(q) {
+            *angle = q;
+        }
+        turns.0 = T::sin_cos_of_eight(eight).into();
+    }
+}
+
+/// The place of a link, its freedoms about the reference point, its own inertia.
+#[cfg_attr(not(debug_assertions), inline(always))]
+#[expect(clippy::too_many_arguments, reason = "the parts of a workspace")]
+fn begin<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    state: usize,
+    q: &[T],
+    turns: &[Eight<T, 2>],
+    space: &mut [LinkInSpace<T>],
+    forces: &mut [LinkForces<T>],
+    motions: &mut [[T; 6]],
+    composite: &mut [Composite<T>],
+) {
+    let turned = if is_plain::<T>() {
+        let ([sines, cosines], k) = (&turns[link.q / EIGHT].0, link.q % EIGHT);
+        E::place_by(link, q, (sines[k], cosines[k]))
+    } else {
+        E::place(link, q)
+    };
+    place_at::<T, E, N>(link, state, turned, space, forces);
+    // The first link, whose origin it is, is there.
+    let reference = reference(space);
+    put_motions::<T, E, N>(link, &space[state], reference, motions);
+    // Those with children are written when the first of these is met.
+    if link.is_leaf {
+        let own = &mut composite[state];
+        own.mass = T::lit(link.mass);
+        own.moment = lit(link.moment);
+        own.inertia = lit_symmetric(link.inertia);
+    }
+}
+
+/// S of a link in space about the reference point.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn put_motions<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    here: &LinkInSpace<T>,
+    reference: [T; 3],
+    motions: &mut [[T; 6]],
+) {
+    let arm = sub(here.origin, reference);
+    let columns = E::turned_subspace(link, here.axes);
+    let mut k = 0;
+    while k < N {
+        let (angular, linear) = columns[k];
+        motions[link.v + k] = six((angular, add(linear, cross(arm, angular))));
+        k += 1;
     }
 }
 
@@ -162,71 +232,26 @@ pub(crate) fn place<T: Real, E: Elementary<T, N>, const N: usize>(
     space: &mut [LinkInSpace<T>],
     forces: &mut [LinkForces<T>],
 ) {
-    let (turn, origin) = E::place(link, q);
-    turn.keep(&mut forces[state].turn);
-    forces[state].origin = origin;
-    let parent = &space[link.parent];
-    let (axes, place) = (turn.after(parent.axes), add(parent.origin, times(parent.axes, origin)));
-    space[state].axes = axes;
-    space[state].origin = place;
+    place_at::<T, E, N>(link, state, E::place(link, q), space, forces);
 }
 
-/// The columns of a link: the entries of the freedoms from the link `from`, which is this one or nearer to the ground.
 #[cfg_attr(not(debug_assertions), inline(always))]
-#[expect(clippy::too_many_arguments, reason = "the parts of a workspace")]
-pub(crate) fn column<T: Real, E: Elementary<T, N>, const N: usize>(
-    tree: &RigidTree,
+fn place_at<T: Real, E: Elementary<T, N>, const N: usize>(
     link: &Link,
     state: usize,
-    from: usize,
-    space: &[LinkInSpace<T>],
-    composite: &[Composite<T>],
-    reference: [T; 3],
-    rows: &Rows<T>,
-    out: &mut [T],
+    (turn, origin): (E::Turn, [T; 3]),
+    space: &mut [LinkInSpace<T>],
+    forces: &mut [LinkForces<T>],
 ) {
-    let n = tree.freedoms;
-    let own = &composite[state];
-    let zero = T::zero();
-    let inertia =
-        Articulated { j: own.inertia, h: skew(own.moment), m: [own.mass, zero, zero, own.mass, zero, own.mass] };
-    let columns = E::columns(link, &inertia);
-    let here = &space[state];
-    let arm = sub(here.origin, reference);
-    let mut k = 0;
-    while k < N {
-        let force = times(here.axes, columns[k].1);
-        let moment = add(times(here.axes, columns[k].0), cross(arm, force));
-        let j = link.v + k;
-        // Freedoms of the same joint beyond this one are left to their own columns.
-        for (first, end) in Runs::of(tree, from) {
-            let end = end.min(j + 1);
-            let column = &mut out[j * n + first..j * n + end];
-            dots(rows, SUBSPACE, first, moment, force, column);
-        }
-        if from == state {
-            out[j * n + j] += T::lit(tree.armature[j]);
-        }
-        k += 1;
-    }
+    turn.keep(&mut forces[state].turn);
+    forces[state].origin = origin;
+    put_place(link, state, (turn, origin), space);
 }
 
-/// Copies the columns of a link to their rows.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn rows_of_columns<T: Real>(tree: &RigidTree, link: &Link, from: usize, out: &mut [T]) {
-    let n = tree.freedoms;
-    for j in link.v..link.v + link.kind.freedoms() {
-        for (first, end) in Runs::of(tree, from) {
-            for i in first..end.min(j) {
-                out[i * n + j] = out[j * n + i];
-            }
-        }
-    }
-}
-
-/// Adds the composite inertia of a link to its parent's.
+/// Adds the composite inertia of a link to its parent's, which begins with its own where this is the first child met.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn add_to_parent<T: Real, E: Elementary<T, N>, const N: usize>(
+    tree: &RigidTree,
     link: &Link,
     state: usize,
     forces: &[LinkForces<T>],
@@ -239,9 +264,14 @@ pub(crate) fn add_to_parent<T: Real, E: Elementary<T, N>, const N: usize>(
         let turned = turn.symmetric_to_parent(own.inertia);
         let mass = own.mass;
         let parent = &mut composite[link.parent];
-        parent.mass += mass;
-        parent.moment = add(parent.moment, add(h, scaled(mass, origin)));
-        parent.inertia = add_symmetric(parent.inertia, add_symmetric(turned, translated_inertia(mass, h, origin)));
+        let (mut sum, mut moment, mut inertia) = (parent.mass, parent.moment, parent.inertia);
+        if link.is_first_met {
+            let parent = &tree.links[link.parent - 1];
+            (sum, moment, inertia) = (T::lit(parent.mass), lit(parent.moment), lit_symmetric(parent.inertia));
+        }
+        parent.mass = sum + mass;
+        parent.moment = add(moment, add(h, scaled(mass, origin)));
+        parent.inertia = add_symmetric(inertia, add_symmetric(turned, translated_inertia(mass, h, origin)));
     }
 }
 

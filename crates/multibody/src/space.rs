@@ -15,12 +15,8 @@ use crate::workspace::{Composite, LinkInSpace, Rows};
 
 /// Rows of the freedoms' vectors in [`Rows`], angular part before linear part, about the reference point.
 pub(crate) const SUBSPACE: usize = 0;
-/// Ṡ, or its parent's part Ψ̇ = v_parent × S.
+/// Ṡ.
 pub(crate) const RATE: usize = 6;
-/// Ψ̈ = a_parent × S + v_parent × Ψ̇.
-pub(crate) const SECOND_RATE: usize = 12;
-/// Ψ̇ + Ṡ.
-pub(crate) const BOTH_RATES: usize = 18;
 
 /// m × n of two motions.
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -61,13 +57,21 @@ fn place<T: Real, E: Elementary<T, N>, const N: usize>(
     states: &mut [LinkInSpace<T>],
     q: &[T],
 ) {
-    let (turn, origin) = E::place(link, q);
+    put_place(link, state, E::place(link, q), states);
+}
+
+/// Writes axes and origin of a link behind a turn and an origin in its parent.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn put_place<T: Real, R: Turning<T>>(
+    link: &Link,
+    state: usize,
+    (turn, origin): (R, Vector<T>),
+    states: &mut [LinkInSpace<T>],
+) {
     let parent = &states[link.parent];
-    let axes = turn.after(parent.axes);
-    let origin = add(parent.origin, times(parent.axes, origin));
-    let child = &mut states[state];
-    child.axes = axes;
-    child.origin = origin;
+    let (axes, origin) = (turn.after(parent.axes), add(parent.origin, times(parent.axes, origin)));
+    states[state].axes = axes;
+    states[state].origin = origin;
 }
 
 /// Angular velocities and velocities of origins; places must be there.

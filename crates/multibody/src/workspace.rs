@@ -3,6 +3,7 @@
 use piola_numerics::Real;
 
 use crate::error::MultibodyError;
+use crate::freedoms::{DENSE, EIGHT, Eight, FOUR};
 use crate::link::Pair;
 use crate::spatial::{Matrix, Symmetric, Vector};
 use crate::tree::RigidTree;
@@ -133,19 +134,42 @@ pub struct TreeWorkspace<T> {
     /// Several columns for each freedom.
     pub(crate) column_values: Vec<[T; COLUMNS]>,
     pub(crate) column_vectors: Vec<ColumnVectors<T>>,
-    /// M⁻¹ with columns of a length that fours divide, for trees so small that products with it are the fastest.
-    pub(crate) dense: Vec<T>,
+    /// Sines and cosines of the coordinates, eight and eight.
+    pub(crate) turns: Vec<Eight<T, 2>>,
+    /// S of the freedoms in space about the reference point.
+    pub(crate) subspaces: Vec<Eight<T, 6>>,
+    pub(crate) motions: Vec<[T; 6]>,
+    /// What the freedoms feel: 𝕀 S, and u₄ of derivatives.
+    pub(crate) felt: Vec<Eight<T, 9>>,
+    pub(crate) vectors: Vec<FreedomVectors<T>>,
+    pub(crate) dense: Dense<T>,
 }
 
-/// Freedoms up to which M⁻¹ multiplies columns, n³ operations. Beyond, each column is solved along the tree: n × links, but in
-/// longer passes.
-pub(crate) const DENSE: usize = 32;
+/// What M⁻¹ and its products need, for trees so small that these are the fastest: matrices by rows, four columns.
+#[derive(Clone, Debug)]
+pub(crate) struct Dense<T> {
+    /// Sums on the way to the ground, for each freedom.
+    pub(crate) sums: Vec<Eight<T, 6>>,
+    /// U and D⁻¹ U.
+    pub(crate) upper: Vec<Eight<T, 1>>,
+    pub(crate) scaled: Vec<Eight<T, 1>>,
+    pub(crate) inverse: Vec<Eight<T, 1>>,
+    pub(crate) columns: Vec<[T; FOUR]>,
+}
 
-/// The same for states in lanes, which fill the registers whatever the products.
-pub(crate) const DENSE_IN_LANES: usize = 12;
-
-/// Rows of a product that are summed at once.
-pub(crate) const FOUR: usize = 4;
+/// Of a freedom in derivatives, in space.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FreedomVectors<T> {
+    /// Ψ̈ and the angular part of Ψ̇, which meet u₁ and u₄ of the freedoms beyond.
+    pub(crate) across_by_q: [T; 9],
+    /// Ψ̇ + Ṡ and the angular part of S, which meet the same.
+    pub(crate) across_by_v: [T; 9],
+    /// u₁ and the angular part of u₄.
+    pub(crate) felt: [T; 9],
+    /// u₂ and u₃, which meet S of the freedoms nearer to the ground.
+    pub(crate) second: [T; 6],
+    pub(crate) third: [T; 6],
+}
 
 /// Columns that are solved at once.
 pub(crate) const COLUMNS: usize = 8;
@@ -161,7 +185,20 @@ pub(crate) struct ColumnVectors<T> {
 }
 
 /// Numbers for each freedom in [`TreeWorkspace::rows`].
-pub(crate) const ROWS: usize = 24;
+pub(crate) const ROWS: usize = 12;
+
+impl<T: Real> Dense<T> {
+    fn new(n: usize) -> Self {
+        let matrix = || Eight::zeros(n * n.next_multiple_of(EIGHT));
+        Self {
+            sums: Eight::zeros(n),
+            upper: matrix(),
+            scaled: matrix(),
+            inverse: matrix(),
+            columns: vec![[T::zero(); FOUR]; n],
+        }
+    }
+}
 
 impl RigidTree {
     /// Memory for evaluations of this tree over any scalar.
@@ -169,7 +206,8 @@ impl RigidTree {
     pub fn workspace<T: Real>(&self) -> TreeWorkspace<T> {
         let (states, n) = (self.links.len() + 1, self.freedoms);
         let (vector, matrix, symmetric) = ([T::zero(); 3], [[T::zero(); 3]; 3], [T::zero(); 6]);
-        let pair = (vector, vector);
+        let (pair, s, nine) = ((vector, vector), symmetric, [T::zero(); 9]);
+        let freedom = FreedomVectors { across_by_q: nine, across_by_v: nine, felt: nine, second: s, third: s };
         let forces = LinkForces {
             turn: matrix,
             origin: vector,
@@ -215,7 +253,12 @@ impl RigidTree {
             column_states: vec![[[T::zero(); COLUMNS]; 6]; states],
             column_values: vec![[T::zero(); COLUMNS]; n],
             column_vectors: vec![ColumnVectors { subspace: symmetric, gain: symmetric }; n],
-            dense: if n <= DENSE { vec![T::zero(); n * n.next_multiple_of(FOUR)] } else { Vec::new() },
+            turns: Eight::zeros(self.coordinates),
+            subspaces: Eight::zeros(n),
+            motions: vec![symmetric; n],
+            felt: Eight::zeros(n),
+            vectors: vec![freedom; n],
+            dense: Dense::new(if n <= DENSE { n } else { 0 }),
         }
     }
 

@@ -22,6 +22,7 @@ use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, N
 
 use num_traits::{One, Zero};
 
+use crate::elementary::trigonometric::{LIMIT, sin_cos};
 use crate::lanewise::Lanewise;
 
 /// The result of a comparison: one truth value for each lane.
@@ -153,6 +154,16 @@ pub trait Real:
     /// (sin x, cos x).
     #[must_use]
     fn sin_cos(self) -> (Self, Self);
+    /// Sines and cosines of eight angles; of `f64` and `f32` side by side, to 2 ulp, in much less time than one after the other.
+    #[must_use]
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn sin_cos_of_eight(angles: [Self; 8]) -> ([Self; 8], [Self; 8]) {
+        let (mut sines, mut cosines) = (angles, angles);
+        for k in 0..8 {
+            (sines[k], cosines[k]) = angles[k].sin_cos();
+        }
+        (sines, cosines)
+    }
     /// arcsin x ∈ [−π/2, π/2].
     #[must_use]
     fn asin(self) -> Self;
@@ -338,6 +349,25 @@ macro_rules! real_for_float {
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn sin_cos(self) -> (Self, Self) {
                 $float::sin_cos(self)
+            }
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn sin_cos_of_eight(angles: [Self; 8]) -> ([Self; 8], [Self; 8]) {
+                let (mut sines, mut cosines, mut is_near) = (angles, angles, true);
+                for angle in angles {
+                    is_near &= f64::from(angle).abs() <= LIMIT;
+                }
+                let mut k = 0;
+                while k < 8 && !is_near {
+                    (sines[k], cosines[k]) = $float::sin_cos(angles[k]);
+                    k += 1;
+                }
+                while k < 8 {
+                    let (sine, cosine) = sin_cos(f64::from(angles[k]));
+                    sines[k] = Self::lit(sine);
+                    cosines[k] = Self::lit(cosine);
+                    k += 1;
+                }
+                (sines, cosines)
             }
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn atan2(self, x: Self) -> Self {

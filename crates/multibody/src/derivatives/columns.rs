@@ -9,6 +9,7 @@
 
 use piola_numerics::Real;
 
+use crate::freedoms::six;
 use crate::link::Link;
 use crate::space::{SUBSPACE, reference, row_pair};
 use crate::spatial::{add, cross, sub, times};
@@ -45,9 +46,10 @@ fn add_scaled<T: Real>(b: &mut ColumnState<T>, a: &[T; 6], x: &Values<T>) {
     }
 }
 
-/// S and Y of all freedoms in space, from articulated inertias, places and subspaces that are there.
+/// S and Y of all freedoms in space, from articulated inertias, places and S that are there: S in the rows of the workspace, or
+/// freedom after freedom.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn gains_in_space<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace<T>) {
+pub(crate) fn gains_in_space<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace<T>, is_in_rows: bool) {
     let reference = reference(&work.space);
     for (i, link) in tree.links.iter().enumerate() {
         let here = &work.space[i + 1];
@@ -55,11 +57,8 @@ pub(crate) fn gains_in_space<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace
         for j in link.v..link.v + link.kind.freedoms() {
             let force = times(here.axes, work.gains[j].1);
             let moment = add(times(here.axes, work.gains[j].0), cross(arm, force));
-            let (angular, linear) = row_pair(&work.rows, SUBSPACE, j);
-            work.column_vectors[j] = ColumnVectors {
-                subspace: [angular[0], angular[1], angular[2], linear[0], linear[1], linear[2]],
-                gain: [moment[0], moment[1], moment[2], force[0], force[1], force[2]],
-            };
+            let subspace = if is_in_rows { six(row_pair(&work.rows, SUBSPACE, j)) } else { work.motions[j] };
+            work.column_vectors[j] = ColumnVectors { subspace, gain: six((moment, force)) };
         }
     }
 }

@@ -4,21 +4,23 @@
 //! ∂v̇/∂q = −M⁻¹ ∂τ/∂q        ∂v̇/∂v = −M⁻¹ ∂τ/∂v        ∂v̇/∂τ = M⁻¹        ∂τ of inverse dynamics at v̇
 //! ```
 //!
-//! Each column is solved along the tree by the articulated inertias of the forward dynamics. Up to 32 freedoms (12 in lanes) M⁻¹ alone is
-//! found so, and multiplies the other columns.
+//! M⁻¹ and its products come from the articulated inertias of the forward dynamics. Up to 128 freedoms M⁻¹ is found from the tips, and
+//! multiplies the other columns where these are not zero. Beyond, and for states in lanes, each column is solved along the tree.
 
 use piola_numerics::{Kernel, Mask, Real, dispatch};
 
 use super::columns::{gains_in_space, solve_columns};
+use super::dense::{invert, multiply_columns};
 use super::inverse::differentiate;
 use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_length};
 use crate::forward_dynamics::{pass_accelerations, pass_inwards, pass_outwards};
+use crate::freedoms::{DENSE, is_plain};
 use crate::link::{Elementary, Link};
-use crate::spatial::{add, times};
+use crate::space::put_place;
 use crate::tree::RigidTree;
 use crate::turn::Turning;
-use crate::workspace::{DENSE, DENSE_IN_LANES, FOUR, LinkArticulation, LinkInSpace, TreeWorkspace};
+use crate::workspace::{LinkArticulation, LinkInSpace, TreeWorkspace};
 
 /// What [`RigidTree::forward_dynamics_derivatives`] writes: v̇ and its derivatives.
 ///
@@ -104,11 +106,7 @@ fn place<T: Real, E: Elementary<T, N>, const N: usize>(
     state: usize,
     space: &mut [LinkInSpace<T>],
 ) {
-    let parent = &space[link.parent];
-    let axes = E::Turn::recall(&kept.turn).after(parent.axes);
-    let origin = add(parent.origin, times(parent.axes, kept.origin));
-    space[state].axes = axes;
-    space[state].origin = origin;
+    put_place(link, state, (E::Turn::recall(&kept.turn), kept.origin), space);
 }
 
 /// The derivatives as a kernel.
@@ -148,56 +146,16 @@ pub(crate) fn differentiate_accelerations<T: Real>(
         for_kind!(link.kind, place::<T>(link, &articulation[i + 1], i + 1, space));
     }
     differentiate(tree, work, v, acceleration, by_q, by_v, None);
-    by_tau.fill(T::zero());
-    for j in 0..n {
-        by_tau[j * n + j] = T::one();
-    }
-    gains_in_space(tree, work);
-    if n <= if T::LANES == 1 { DENSE } else { DENSE_IN_LANES } {
-        solve_columns(tree, work, &mut [&mut by_tau[..]], &[1.0], n);
-        multiply_columns(work, by_tau, [by_q, by_v], n);
+    gains_in_space(tree, work, false);
+    if is_plain::<T>() && n <= DENSE {
+        invert(tree, work, by_tau);
+        multiply_columns(tree, &mut work.dense, [by_q, by_v]);
     } else {
+        by_tau.fill(T::zero());
+        for j in 0..n {
+            by_tau[j * n + j] = T::one();
+        }
         solve_columns(tree, work, &mut [&mut by_q[..], &mut by_v[..], &mut by_tau[..]], &[-1.0, -1.0, 1.0], n);
     }
     all_finite(by_q) && all_finite(by_v) && all_finite(by_tau)
-}
-
-/// Replaces the columns b of matrices by −M⁻¹ b, where M⁻¹ is there.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn multiply_columns<T: Real>(work: &mut TreeWorkspace<T>, inverse: &[T], matrices: [&mut [T]; 2], n: usize) {
-    if n == 0 {
-        return;
-    }
-    let TreeWorkspace { dense, column, .. } = work;
-    let stride = n.next_multiple_of(FOUR);
-    for (to, from) in dense.chunks_exact_mut(stride).zip(inverse.chunks_exact(n)) {
-        for (to, &from) in to.iter_mut().zip(from) {
-            *to = -from;
-        }
-    }
-    for matrix in matrices {
-        for b in matrix.chunks_exact_mut(n) {
-            column[..n].copy_from_slice(b);
-            for group in 0..stride / FOUR {
-                let mut sum = [T::zero(); FOUR];
-                for (of_inverse, &value) in dense.chunks_exact(stride).zip(&column[..n]) {
-                    let of_inverse = &of_inverse.as_chunks::<FOUR>().0[group];
-                    let mut k = 0;
-                    while k < FOUR {
-                        sum[k] += of_inverse[k] * value;
-                        k += 1;
-                    }
-                }
-                put_group(b, group, &sum);
-            }
-        }
-    }
-}
-
-/// Writes four rows of a product, as many of them as there are.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn put_group<T: Real>(out: &mut [T], group: usize, values: &[T; FOUR]) {
-    for (out, &value) in out[group * FOUR..].iter_mut().zip(values) {
-        *out = value;
-    }
 }

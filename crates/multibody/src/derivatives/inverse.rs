@@ -10,6 +10,8 @@
 //! ∂τ_i/∂v_j = S_i·u₂        ∂τ_j/∂v_i = (Ψ̇ + Ṡ)_i·u₁ + S_i·u₄        ∂τ_i/∂a_j = S_i·u₁
 //! ```
 //!
+//! Freedoms of the same joint turn with it, so that their S feels no force: in the entries of ∂τ/∂q among them S ×* f is left out.
+//!
 //! # References
 //! S. Singh, R. P. Russell & P. M. Wensing, *Efficient analytical derivatives of rigid-body dynamics using spatial vector
 //! algebra*, IEEE Robot. Autom. Lett. 7 (2022) 1776.
@@ -19,15 +21,13 @@ use piola_numerics::{Kernel, Real, dispatch};
 use crate::coriolis::{add_velocity_product, by_velocity, by_velocity_transposed, own_velocity_product};
 use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_length};
+use crate::freedoms::{EIGHT, Eight, is_paired, product, products, put, six, sum, write};
 use crate::link::{Elementary, Link, Pair};
-use crate::mass_matrix::dots;
-use crate::space::{
-    BOTH_RATES, RATE, Runs, SECOND_RATE, SUBSPACE, add_pairs, force_cross, motion_cross, own_inertia, pass_places,
-    put_pair, reference, row_pair,
-};
+use crate::mass_matrix::join;
+use crate::space::{Runs, add_pairs, force_cross, motion_cross, own_inertia, pass_places, reference};
 use crate::spatial::{Vector, add, cross, lit, scaled, sub};
 use crate::tree::RigidTree;
-use crate::workspace::{Composite, LinkInSpace, Rows, TreeWorkspace};
+use crate::workspace::{Composite, FreedomVectors, LinkInSpace, TreeWorkspace};
 
 impl RigidTree {
     /// The derivatives of [`inverse_dynamics`](Self::inverse_dynamics): ∂τ/∂q on the tangent space, ∂τ/∂v, ∂τ/∂v̇ = M.
@@ -79,6 +79,9 @@ impl RigidTree {
     }
 }
 
+/// Freedoms up to which entries are computed one after the other.
+const PAIRS: usize = 64;
+
 /// The derivatives as a kernel.
 struct Derivatives<'a, T> {
     tree: &'a RigidTree,
@@ -111,15 +114,7 @@ pub(super) fn differentiate<T: Real>(
     by_v: &mut [T],
     mut by_a: Option<&mut [T]>,
 ) {
-    let n = tree.freedoms;
-    let TreeWorkspace { space, rows, composite, column, .. } = work;
-    let reference = reference(space);
-    // At rest but for gravity.
-    space[0].acceleration = lit([-tree.gravity[0], -tree.gravity[1], -tree.gravity[2]]);
-    for (i, link) in tree.links.iter().enumerate() {
-        for_kind!(link.kind, outwards::<T>(link, i + 1, space, rows, composite, reference, v, a));
-    }
-    space[0].acceleration = [T::zero(); 3];
+    let is_paired = is_paired::<T>(tree.freedoms, PAIRS);
     if tree.links.iter().any(|link| link.run != 1) {
         by_q.fill(T::zero());
         by_v.fill(T::zero());
@@ -127,38 +122,29 @@ pub(super) fn differentiate<T: Real>(
             by_a.fill(T::zero());
         }
     }
+    let TreeWorkspace { space, subspaces, felt, motions, vectors, composite, .. } = work;
+    let reference = reference(space);
+    // At rest but for gravity.
+    space[0].acceleration = lit([-tree.gravity[0], -tree.gravity[1], -tree.gravity[2]]);
+    for (i, link) in tree.links.iter().enumerate() {
+        for_kind!(
+            link.kind,
+            outwards::<T>(tree, link, i + 1, space, subspaces, motions, vectors, composite, reference, v, a)
+        );
+    }
+    space[0].acceleration = [T::zero(); 3];
     for (i, link) in tree.links.iter().enumerate().rev() {
-        let freedoms = link.kind.freedoms();
-        let mut k = 0;
-        while k < freedoms {
-            let j = link.v + k;
-            let of = Vectors::of(&composite[i + 1], rows, j);
-            for (first, end) in Runs::of(tree, i + 1) {
-                let before = end.min(link.v);
-                dots(rows, SUBSPACE, first, of.second.0, of.second.1, &mut by_v[j * n + first..j * n + end]);
-                if first < before {
-                    dots(rows, SUBSPACE, first, of.third.0, of.third.1, &mut by_q[j * n + first..j * n + before]);
-                    across(rows, first, &of, &mut column[first..before], false);
-                    for t in first..before {
-                        by_v[t * n + j] = column[t];
-                    }
-                }
-                // Freedoms of the same joint turn with it, so that their S feels no force: S ×* f is left out.
-                across(rows, first, &of, &mut column[first..end], true);
-                for t in first..end {
-                    by_q[t * n + j] = column[t];
-                }
-                if let Some(by_a) = by_a.as_deref_mut() {
-                    dots(rows, SUBSPACE, first, of.first.0, of.first.1, &mut by_a[j * n + first..j * n + end]);
-                    for t in first..end {
-                        by_a[t * n + j] = by_a[j * n + t];
-                    }
-                }
-            }
+        for j in link.v..link.v + link.kind.freedoms() {
+            vectors[j].feel(&motions[j], &composite[i + 1]);
             if let Some(by_a) = by_a.as_deref_mut() {
-                by_a[j * n + j] += T::lit(tree.armature[j]);
+                join(tree, i + 1, j, motions, &six(pair(&vectors[j].felt)), by_a);
+                by_a[j * (tree.freedoms + 1)] += T::lit(tree.armature[j]);
             }
-            k += 1;
+            if is_paired {
+                pairs(tree, (link, j), motions, vectors, by_q, by_v);
+            } else {
+                put(felt, j, 0, vectors[j].felt);
+            }
         }
         if link.parent != 0 {
             let (before, after) = composite.split_at_mut(i + 1);
@@ -168,48 +154,103 @@ pub(super) fn differentiate<T: Real>(
             parent.force = add(parent.force, child.force);
         }
     }
-}
-
-/// u₁ to u₄ of a freedom.
-struct Vectors<T> {
-    first: Pair<T>,
-    second: Pair<T>,
-    third: Pair<T>,
-    /// Its linear part is zero.
-    fourth: Vector<T>,
-}
-
-impl<T: Real> Vectors<T> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn of(beyond: &Composite<T>, rows: &Rows<T>, freedom: usize) -> Self {
-        let s = row_pair(rows, SUBSPACE, freedom);
-        let rate = row_pair(rows, RATE, freedom);
-        let twice = T::lit(2.0);
-        let by_s = by_velocity(beyond, scaled(twice, s.0));
-        let by_rate = by_velocity(beyond, scaled(twice, rate.0));
-        let second = add_pairs(by_s, beyond.momentum_of(row_pair(rows, BOTH_RATES, freedom)));
-        let third = add_pairs(by_rate, beyond.momentum_of(row_pair(rows, SECOND_RATE, freedom)));
-        let third = add_pairs(third, force_cross(s, (beyond.torque, beyond.force)));
-        let fourth = scaled(twice, by_velocity_transposed(beyond, s));
-        Self { first: beyond.momentum_of(s), second, third, fourth }
+    if !is_paired {
+        columns(tree, work, by_q, by_v);
     }
 }
 
-/// The derivatives of one τ with respect to freedoms nearer to the ground, from `first`: by q, or by v.
+/// The entries of freedom j of a link with its own joint and with all freedoms nearer to the ground, one after the other.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn across<T: Real>(rows: &Rows<T>, first: usize, of: &Vectors<T>, out: &mut [T], by_q: bool) {
-    let count = out.len();
-    let row = |k: usize| &rows.row(k)[first..first + count];
-    let (with_first, with_fourth) = if by_q { (SECOND_RATE, RATE) } else { (BOTH_RATES, SUBSPACE) };
-    let (x, y, z) = (row(with_first), row(with_first + 1), row(with_first + 2));
-    let (u, v, w) = (row(with_first + 3), row(with_first + 4), row(with_first + 5));
-    let (a, b, c) = (row(with_fourth), row(with_fourth + 1), row(with_fourth + 2));
-    let (moment, force, fourth) = (of.first.0, of.first.1, of.fourth);
-    for i in 0..count {
-        out[i] = (x[i] * moment[0] + y[i] * moment[1] + z[i] * moment[2])
-            + (u[i] * force[0] + v[i] * force[1] + w[i] * force[2])
-            + (a[i] * fourth[0] + b[i] * fourth[1] + c[i] * fourth[2]);
+fn pairs<T: Real>(
+    tree: &RigidTree,
+    (link, j): (&Link, usize),
+    motions: &[[T; 6]],
+    vectors: &[FreedomVectors<T>],
+    by_q: &mut [T],
+    by_v: &mut [T],
+) {
+    let n = tree.freedoms;
+    let of = &vectors[j];
+    for i in link.v..link.v + link.kind.freedoms() {
+        by_q[i * n + j] = product(&vectors[i].across_by_q, &of.felt);
+        by_v[j * n + i] = product(&motions[i], &of.second);
     }
+    for (first, end) in Runs::of(tree, link.parent) {
+        for (i, at) in vectors[first..end].iter().enumerate() {
+            let i = first + i;
+            by_q[j * n + i] = product(&motions[i], &of.third);
+            by_v[j * n + i] = product(&motions[i], &of.second);
+            by_q[i * n + j] = product(&at.across_by_q, &of.felt);
+            by_v[i * n + j] = product(&at.across_by_v, &of.felt);
+        }
+    }
+}
+
+/// All entries of ∂τ/∂q and ∂τ/∂v, eight rows of both at a time.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn columns<T: Real>(tree: &RigidTree, work: &TreeWorkspace<T>, by_q: &mut [T], by_v: &mut [T]) {
+    let (n, zeros) = (tree.freedoms, [T::zero(); EIGHT]);
+    for (i, link) in tree.links.iter().enumerate() {
+        for j in link.v..link.v + link.kind.freedoms() {
+            let of = &work.vectors[j];
+            let bits = tree.relatives.of(i);
+            let (first, after) = (link.v / EIGHT, (link.v + link.kind.freedoms() - 1) / EIGHT + 1);
+            let (column, end) = (j * n, (j + 1) * n);
+            for (b, (&[before, _], s)) in bits[..first].iter().zip(&work.subspaces).enumerate() {
+                if before == 0 {
+                    write(by_q, column + b * EIGHT, end, &zeros);
+                    write(by_v, column + b * EIGHT, end, &zeros);
+                } else {
+                    write(by_q, column + b * EIGHT, end, &products(before, &s.0, &of.third));
+                    write(by_v, column + b * EIGHT, end, &products(before, &s.0, &of.second));
+                }
+            }
+            for b in first..after {
+                let ([before, beyond], own) = (bits[b], link.bits(b));
+                let (s, felt) = (&work.subspaces[b].0, &work.felt[b].0);
+                let to_q = sum(products(before, s, &of.third), products(beyond | own, felt, &of.across_by_q));
+                let to_v = sum(products(before | own, s, &of.second), products(beyond, felt, &of.across_by_v));
+                write(by_q, column + b * EIGHT, end, &to_q);
+                write(by_v, column + b * EIGHT, end, &to_v);
+            }
+            for (b, (&[_, beyond], felt)) in bits.iter().zip(&work.felt).enumerate().skip(after) {
+                if beyond == 0 {
+                    write(by_q, column + b * EIGHT, end, &zeros);
+                    write(by_v, column + b * EIGHT, end, &zeros);
+                } else {
+                    write(by_q, column + b * EIGHT, end, &products(beyond, &felt.0, &of.across_by_q));
+                    write(by_v, column + b * EIGHT, end, &products(beyond, &felt.0, &of.across_by_v));
+                }
+            }
+        }
+    }
+}
+
+impl<T: Real> FreedomVectors<T> {
+    /// Writes u₁ to u₄; the linear part of u₄ is zero.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn feel(&mut self, s: &[T; 6], beyond: &Composite<T>) {
+        let (twice, s) = (T::lit(2.0), pair(s));
+        let [.., x, y, z] = self.across_by_q;
+        let by_s = by_velocity(beyond, scaled(twice, s.0));
+        let by_rate = by_velocity(beyond, scaled(twice, [x, y, z]));
+        let third = add_pairs(by_rate, beyond.momentum_of(pair(&self.across_by_q)));
+        self.felt = nine(beyond.momentum_of(s), scaled(twice, by_velocity_transposed(beyond, s)));
+        self.second = six(add_pairs(by_s, beyond.momentum_of(pair(&self.across_by_v))));
+        self.third = six(add_pairs(third, force_cross(s, (beyond.torque, beyond.force))));
+    }
+}
+
+/// The first six numbers as a pair.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn pair<T: Real>(x: &[T]) -> Pair<T> {
+    ([x[0], x[1], x[2]], [x[3], x[4], x[5]])
+}
+
+/// Six numbers and three.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn nine<T: Real>((a, b): Pair<T>, c: Vector<T>) -> [T; 9] {
+    [a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]]
 }
 
 /// Motions at the reference point (in the fields of velocities and accelerations), the freedoms' vectors, and what each link
@@ -217,10 +258,13 @@ fn across<T: Real>(rows: &Rows<T>, first: usize, of: &Vectors<T>, out: &mut [T],
 #[cfg_attr(not(debug_assertions), inline(always))]
 #[expect(clippy::too_many_arguments, reason = "the parts of a workspace")]
 fn outwards<T: Real, E: Elementary<T, N>, const N: usize>(
+    tree: &RigidTree,
     link: &Link,
     state: usize,
     space: &mut [LinkInSpace<T>],
-    rows: &mut Rows<T>,
+    subspaces: &mut [Eight<T, 6>],
+    motions: &mut [[T; 6]],
+    vectors: &mut [FreedomVectors<T>],
     composite: &mut [Composite<T>],
     reference: Vector<T>,
     v: &[T],
@@ -248,10 +292,13 @@ fn outwards<T: Real, E: Elementary<T, N>, const N: usize>(
     while k < N {
         let rate = motion_cross(parent_motion, s[k]);
         let second = add_pairs(motion_cross(parent_acceleration, s[k]), motion_cross(parent_motion, rate));
-        put_pair(rows, SUBSPACE, link.v + k, s[k]);
-        put_pair(rows, RATE, link.v + k, rate);
-        put_pair(rows, SECOND_RATE, link.v + k, second);
-        put_pair(rows, BOTH_RATES, link.v + k, add_pairs(rate, motion_cross(motion, s[k])));
+        let of = &mut vectors[link.v + k];
+        if !is_paired::<T>(tree.freedoms, PAIRS) {
+            put(subspaces, link.v + k, 0, six(s[k]));
+        }
+        motions[link.v + k] = six(s[k]);
+        of.across_by_q = nine(second, rate.0);
+        of.across_by_v = nine(add_pairs(rate, motion_cross(motion, s[k])), s[k].0);
         k += 1;
     }
     (here.w, here.velocity) = motion;

@@ -4,6 +4,7 @@
 //! [`move_configuration`](crate::RigidTree::move_configuration).
 
 mod columns;
+mod dense;
 mod forward;
 mod inverse;
 

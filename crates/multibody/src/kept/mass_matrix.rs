@@ -12,8 +12,8 @@ use piola_numerics::Real;
 
 use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_finite, check_length};
-use crate::mass_matrix::{add_to_parent, column, place, rows_of_columns};
-use crate::space::{reference, subspaces};
+use crate::mass_matrix::{add_to_parent, entries, place, put_motions};
+use crate::space::reference;
 use crate::spatial::{lit, lit_symmetric};
 use crate::tree::RigidTree;
 use crate::workspace::TreeWorkspace;
@@ -166,9 +166,9 @@ impl<'a, T: Real> KeptMassMatrix<'a, T> {
     }
 
     fn follow(&mut self) {
-        let Self { tree, work, q, entries, moved, is_reshaped, last_changed, counts, .. } = self;
+        let Self { tree, work, q, entries: out, moved, is_reshaped, last_changed, counts, .. } = self;
         *counts = UpdateCounts { links: tree.links(), ..UpdateCounts::default() };
-        let TreeWorkspace { space, rows, composite, forces, .. } = work;
+        let TreeWorkspace { space, motions, composite, forces, .. } = work;
         for (i, link) in tree.links.iter().enumerate() {
             if moved[i + 1] {
                 for_kind!(link.kind, place::<T>(link, i + 1, q, space, forces));
@@ -187,7 +187,7 @@ impl<'a, T: Real> KeptMassMatrix<'a, T> {
         let is_shifted = moved.get(1).copied().unwrap_or(false);
         for (i, link) in tree.links.iter().enumerate() {
             if moved[i + 1] || is_shifted {
-                for_kind!(link.kind, subspaces::<T>(link, &space[i + 1], reference, rows));
+                for_kind!(link.kind, put_motions::<T>(link, &space[i + 1], reference, motions));
             }
         }
         for (i, link) in tree.links.iter().enumerate().rev() {
@@ -199,12 +199,12 @@ impl<'a, T: Real> KeptMassMatrix<'a, T> {
                 (false, last) => tree.links[last - 1].parent,
             };
             if from != 0 {
-                for_kind!(link.kind, column::<T>(tree, link, i + 1, from, space, composite, reference, rows, entries));
-                rows_of_columns(tree, link, from, entries);
+                let kind = link.kind;
+                for_kind!(kind, entries::<T>(tree, link, i + 1, from, space, composite, reference, motions, out));
                 counts.columns += 1;
             }
             if is_reshaped[link.parent] {
-                for_kind!(link.kind, add_to_parent::<T>(link, i + 1, forces, composite));
+                for_kind!(link.kind, add_to_parent::<T>(tree, link, i + 1, forces, composite));
             }
         }
     }

@@ -198,7 +198,7 @@ impl ClosedTree {
     /// M⁻¹ Gᵀ, and the factor of G M⁻¹ Gᵀ, from articulated inertias and gradients that are there.
     pub(super) fn factorise(&self, work: &mut LoopWorkspace) {
         let (n, m) = (self.tree.freedoms, self.conditions);
-        gains_in_space(&self.tree, &mut work.tree);
+        gains_in_space(&self.tree, &mut work.tree, true);
         work.columns.copy_from_slice(&work.gradients);
         solve_columns(&self.tree, &mut work.tree, &mut [&mut work.columns[..]], &[1.0], m);
         for i in 0..m {

@@ -2,6 +2,7 @@
 
 use super::{BodyIndex, BodyInertia, FrameIndex, JointKind, JointPlace, Mounted, RigidTree, TreeJoint};
 use crate::error::MultibodyError;
+use crate::freedoms::Relatives;
 use crate::link::{Kind, Link};
 use crate::spatial::{add, cross, dot, product, scaled, times, transposed};
 
@@ -52,6 +53,7 @@ impl Default for RigidTreeBuilder {
             freedoms: 0,
             squares: 0,
             quaternions: Vec::new(),
+            relatives: Relatives::default(),
         };
         Self { tree }
     }
@@ -178,6 +180,7 @@ impl RigidTreeBuilder {
                 return Err(MultibodyError::NoInertia { joint: self.tree.joint_of(link), inertia: mass });
             }
         }
+        self.tree.relatives = Relatives::of_links(&self.tree.links, self.tree.freedoms);
         Ok(self.tree)
     }
 

@@ -13,6 +13,7 @@ pub use joint::{JointKind, TreeJoint};
 pub use plan::TreePlan;
 
 use crate::error::MultibodyError;
+use crate::freedoms::Relatives;
 use crate::link::{Kind, Link};
 
 /// A body of a tree. The ground is [`BodyIndex::GROUND`].
@@ -106,6 +107,7 @@ pub struct RigidTree {
     pub(crate) squares: usize,
     /// The links with unit quaternions.
     pub(crate) quaternions: Vec<usize>,
+    pub(crate) relatives: Relatives,
 }
 
 impl RigidTree {

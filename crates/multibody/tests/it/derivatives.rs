@@ -1,10 +1,11 @@
 //! Analytic derivatives against dual numbers.
 
+use nalgebra::DMatrix;
 use piola_multibody::{AccelerationDerivatives, RigidTree};
 use piola_numerics::Dual;
 use piola_testkit::{Tol, assert_close};
 
-use crate::trees::{State, branched, chain, gripper_arm, humanoid, mixed, quadruped, state_of, ur5};
+use crate::trees::{State, branched, bush, chain, gripper_arm, humanoid, mixed, quadruped, state_of, ur5};
 
 const ROUNDING: Tol = Tol::stated(1e-11, "the project's bound on derivatives");
 
@@ -24,8 +25,10 @@ fn seeded(tree: &RigidTree, state: &State, by: usize, j: usize) -> [Vec<Dual<f64
     [q, v, a]
 }
 
-fn trees() -> [(&'static str, RigidTree); 7] {
+fn trees() -> [(&'static str, RigidTree); 8] {
     [
+        // Entries in eights, beyond 64 freedoms.
+        ("bush", bush(54)),
         ("ur5", ur5()),
         ("chain", chain(9)),
         ("branched", branched()),
@@ -109,5 +112,29 @@ fn derivatives_of_forward_dynamics_equal_dual_numbers() {
             }
             assert_close(&format!("{name} {by}"), matrix, &expected, ROUNDING);
         }
+    }
+}
+
+/// Up to 128 freedoms M⁻¹ multiplies, beyond that each column is solved along the tree.
+#[test]
+fn mass_matrix_times_derivatives_of_accelerations_equals_those_of_forces() {
+    for bodies in [30, 54, 90, 110] {
+        let tree = bush(bodies);
+        let n = tree.freedoms();
+        let state = state_of(&tree, 5);
+        let (mut work, mut out) = (tree.workspace(), AccelerationDerivatives::new(&tree));
+        tree.forward_dynamics_derivatives(&mut work, &state.q, &state.v, &state.a, &mut out).unwrap();
+        let mut mass_matrix = vec![0.0; n * n];
+        tree.mass_matrix(&mut work, &state.q, &mut mass_matrix).unwrap();
+        let [mut by_q, mut by_v, mut by_a] = [(); 3].map(|()| vec![0.0; n * n]);
+        let a = &out.acceleration;
+        tree.inverse_dynamics_derivatives(&mut work, &state.q, &state.v, a, &mut by_q, &mut by_v, &mut by_a).unwrap();
+        let m = DMatrix::from_column_slice(n, n, &mass_matrix);
+        let times = |x: &[f64]| (&m * DMatrix::from_column_slice(n, n, x)).as_slice().to_vec();
+        let minus = |x: &[f64]| x.iter().map(|x| -x).collect::<Vec<_>>();
+        assert_close(&format!("{n} by q"), &times(&out.by_q), &minus(&by_q), ROUNDING);
+        assert_close(&format!("{n} by v"), &times(&out.by_v), &minus(&by_v), ROUNDING);
+        assert_close(&format!("{n} by τ"), &times(&out.by_tau), DMatrix::identity(n, n).as_slice(), ROUNDING);
+        assert_close(&format!("{n} by a"), &by_a, &mass_matrix, Tol::ulps_because(512.0, "other orders of sums"));
     }
 }

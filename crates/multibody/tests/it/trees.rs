@@ -229,6 +229,22 @@ pub(crate) fn branched() -> RigidTree {
     tree_of(&[JointKind::Free, x, y, x, y, y, x], &[0, 1, 2, 1, 4, 5, 1], 11)
 }
 
+/// A free body with many branches, whose bodies are attached to one branch and another in turn.
+pub(crate) fn bush(bodies: usize) -> RigidTree {
+    let mut next = uniform(41);
+    let kinds: Vec<JointKind> = (0..bodies)
+        .map(|i| match i % 7 {
+            _ if i == 0 => JointKind::Free,
+            1 => JointKind::Spherical,
+            2 => JointKind::Prismatic { axis: direction(&mut next) },
+            3 => JointKind::Revolute { axis: direction(&mut next) },
+            _ => JointKind::Revolute { axis: [0.0, 1.0, 0.0] },
+        })
+        .collect();
+    let parents: Vec<usize> = (0..bodies).map(|i| if i < 4 { i } else { i - 3 }).collect();
+    tree_of(&kinds, &parents, 47)
+}
+
 /// All kinds of joints in one tree.
 pub(crate) fn mixed() -> RigidTree {
     let mut next = uniform(5);

@@ -138,3 +138,21 @@ fn products_and_quotients_of_hessians_equal_closed_forms() {
     assert!(!Hessian::<f64, 2, 3>::lit(2.0).depends_on(0));
     assert_eq!(x - x, Hessian::lit(0.0));
 }
+
+/// Far angles are reduced one after the other.
+#[test]
+fn sines_and_cosines_of_eight_angles_equal_those_of_each() {
+    let angles = [0.0, -0.3, 1.5, 3.2, -7.1, 250.0, 1e4, -1e9];
+    let (sines, cosines) = f64::sin_cos_of_eight(angles);
+    let (expected_sines, expected_cosines) = (angles.map(f64::sin), angles.map(f64::cos));
+    let tol = Tol::ulps(4.0);
+    for k in 0..8 {
+        assert_close("sine", &[sines[k]], &[expected_sines[k]], tol);
+        assert_close("cosine", &[cosines[k]], &[expected_cosines[k]], tol);
+    }
+    let duals = <Dual<f64>>::sin_cos_of_eight(angles.map(Dual::variable));
+    for k in 0..8 {
+        assert_close("slope of the sine", &[duals.0[k].tangent], &[expected_cosines[k]], tol);
+        assert_close("slope of the cosine", &[duals.1[k].tangent], &[-expected_sines[k]], tol);
+    }
+}
