@@ -114,7 +114,9 @@ fn a_spectrum_is_found_of_files_of_several_temperatures_with_its_card() {
     }
     let run = |arguments: &[&str]| folder.piola(&[&["spectrum", "cold.csv", "warm.csv"], arguments].concat());
     let (code, printed, told) = run(&["--reference-temperature", "170 °C", "--modes", "1", "--card", "abaqus"]);
-    assert_eq!((code, told.as_str()), (Some(0), ""), "{printed}");
+    // A slow machine tells its progress after five seconds.
+    let told: Vec<&str> = told.lines().filter(|line| !line.starts_with("cold: ")).collect();
+    assert!(code == Some(0) && told.is_empty(), "{printed}{told:?}");
     assert!(printed.contains("shifted to 170.0 °C") && printed.contains("1 mode,"), "{printed}");
     assert!(folder.read("out/spectrum-cold/abaqus-prony.inp").contains("*VISCOELASTIC, TIME=PRONY\n1.0, 0.0, "));
     let summary: serde_json::Value =
