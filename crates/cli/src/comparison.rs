@@ -12,7 +12,8 @@ pub(crate) fn table(measurements: &Measurements, comparison: &Comparison) -> Str
     let mut text = String::new();
     let tests = measurements.data.tests();
     let (count, told) = (measurements.data.len(), measurements.data.informative());
-    let _ = writeln!(text, "{}: {count} stresses in {} tests", measurements.name(), tests.len());
+    let plural = if tests.len() == 1 { "" } else { "s" };
+    let _ = writeln!(text, "{}: {count} stresses in {} test{plural}", measurements.name(), tests.len());
     if told < count {
         let _ = writeln!(text, "  {} of them at rest, where every law has the same: they do not count", count - told);
     }

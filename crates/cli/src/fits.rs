@@ -5,7 +5,7 @@ use std::path::Path;
 use piola_charts::Folder;
 use piola_measured::MeasuredError;
 use piola_measured::fitting::{self, Measurements, Request};
-use piola_measured::sides::{SidesMeasurements, SidesModel, SidesOptions, card_of_foam, compare_sides_with};
+use piola_measured::sides::{SidesMeasurements, SidesModel, SidesOptions, card_of_foam, compare_sides_until};
 
 use crate::arguments::FitArguments;
 use crate::commands::{listing, note, print, refused};
@@ -94,11 +94,15 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
 
 /// Laws of foam or of fibres, to tests whose sides are free, measured or held.
 fn with_sides(arguments: &FitArguments) -> Exit {
+    let interrupt = Interrupt::listen();
     let prepared = sides_options(arguments).and_then(|options| {
         let laws: Vec<SidesModel> =
             arguments.laws.iter().map(|name| Ok(name.parse()?)).collect::<Result<_, MeasuredError>>()?;
         let measurements = SidesMeasurements::load(&arguments.data)?;
-        let found = compare_sides_with(&measurements, &laws, &options, arguments.intervals.kind()?);
+        let intervals = arguments.intervals.kind()?;
+        let found = flows::watched(&measurements.name(), &interrupt, |watch| {
+            compare_sides_until(&measurements, &laws, &options, intervals, watch)
+        });
         let mut cards = Vec::new();
         for text in &arguments.cards {
             let program: fitting::Program = text.parse()?;
@@ -125,6 +129,9 @@ fn with_sides(arguments: &FitArguments) -> Exit {
     }
     for failure in &written.failures {
         note(&format!("error: {failure}"));
+    }
+    if found.interrupted {
+        note("interrupted: what was fitted until then is written");
     }
     if found.is_complete() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use piola_charts::Folder;
 use piola_measured::MeasuredError;
-use piola_measured::fitting::Program;
+use piola_measured::fitting::{Intervals, Program};
 use piola_measured::spectra::{
     RelaxationMode, RelaxationSpectrum, SpectrumRequest, SpectrumTable, general_viscoelastic, prony, spectrum_until,
 };
@@ -33,6 +33,9 @@ pub(crate) struct SpectrumArguments {
     /// Shift temperatures vertically, too.
     #[arg(long)]
     pub(crate) vertical: bool,
+    /// How intervals are found: linear. A profile and a bootstrap are refused, because modes that are fitted anew exchange their places.
+    #[arg(long, value_name = "KIND", default_value = "linear")]
+    pub(crate) intervals: String,
     /// Write the Prony series for abaqus, ansys, febio or ls-dyna; several times for several.
     #[arg(long = "card", value_name = "PROGRAM")]
     pub(crate) cards: Vec<String>,
@@ -48,6 +51,17 @@ pub(crate) struct SpectrumArguments {
     /// Print JSON to standard output.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// Refuses intervals that spectra do not have.
+fn linear_alone(intervals: &str) -> Result<(), MeasuredError> {
+    match intervals.parse()? {
+        Intervals::Linear => Ok(()),
+        _ => Err(MeasuredError::Argument {
+            argument: format!("--intervals {intervals}"),
+            valid: "linear for a spectrum: modes that are fitted anew exchange their places, so that samples of one mode mix",
+        }),
+    }
 }
 
 /// The name of the file of a card, and the card.
@@ -66,7 +80,8 @@ fn card(
 
 pub(crate) fn find(arguments: &SpectrumArguments) -> Exit {
     let interrupt = Interrupt::listen();
-    let prepared = SpectrumTable::load(&arguments.data).and_then(|table| {
+    let prepared = linear_alone(&arguments.intervals).and_then(|()| {
+        let table = SpectrumTable::load(&arguments.data)?;
         // What a card refuses for one mode it refuses for all: before the search.
         let mode = RelaxationMode { modulus: 1.0, relaxation_time: 1.0 };
         let one = RelaxationSpectrum::new(vec![mode], 0.0)?;

@@ -3,6 +3,7 @@
 mod boxes;
 mod end_to_end;
 mod hostile;
+mod intervals;
 mod measurements;
 mod register;
 mod resume;

@@ -53,7 +53,9 @@ impl HistoryComparison {
         /// Of `overstress_first_lame_parameter`.
         const WIDTH: usize = 31;
         let rows: usize = measurements.tests.iter().map(|test| test.rows().len()).sum();
-        let mut text = format!("{}: {rows} rows in {} tests\n", measurements.name(), measurements.tests.len());
+        let tests = measurements.tests.len();
+        let plural = if tests == 1 { "" } else { "s" };
+        let mut text = format!("{}: {rows} rows in {tests} test{plural}\n", measurements.name());
         for note in &measurements.notes {
             let _ = writeln!(text, "{note}.");
         }

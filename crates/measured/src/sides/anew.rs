@@ -4,13 +4,15 @@ use piola_fit::internal::{Anew, Change, check_intervals, fit_sides_shifted};
 use piola_fit::sides::{SidesFit, SidesModel, SidesOptions, SidesResiduals, SidesTest, fit_sides};
 use piola_fit::{FitError, Intervals};
 
-/// A fit with intervals of this kind.
+/// A fit with intervals of this kind. Before each fit that they take `step` is told the finished part, as far as it is known, and `stop` is
+/// asked.
 pub(super) fn with_intervals(
     mut fit: SidesFit,
     law: SidesModel,
     tests: &[SidesTest],
     options: &SidesOptions,
     intervals: Intervals,
+    (step, stop): (&dyn Fn(f64), &dyn Fn() -> bool),
 ) -> Result<SidesFit, FitError> {
     check_intervals(intervals)?;
     let weighted: Vec<Vec<f64>> = fit.tests.iter().zip(tests).flat_map(|(found, test)| weighted(found, test)).collect();
@@ -31,7 +33,17 @@ pub(super) fn with_intervals(
         widening: fit.autocorrelation.map_or(1.0, |found| found.widening),
         confidence: options.confidence,
     };
+    let mut made = 0.0;
     let mut again = |change: Change<'_>| {
+        if stop() {
+            return None;
+        }
+        made += 1.0;
+        step(match (change, intervals) {
+            (Change::Held(k, _), _) => k as f64 / fit.parameters.len() as f64,
+            (_, Intervals::Bootstrap { samples, .. }) => made / samples as f64,
+            _ => 0.0,
+        });
         let found = match change {
             Change::Held(k, value) => {
                 let held = options.clone().with_bounds(&fit.parameters[k].name, [value; 2]);
@@ -41,7 +53,7 @@ pub(super) fn with_intervals(
         };
         Some((found.values(), found.weighted_squares))
     };
-    let anew = fitted.intervals(intervals, &mut again, &|| false);
+    let anew = fitted.intervals(intervals, &mut again, stop);
     for (parameter, interval) in fit.parameters.iter_mut().zip(anew.into_iter().flatten()) {
         parameter.interval = interval;
     }

@@ -19,7 +19,9 @@ pub use piola_fit::Intervals;
 pub use piola_fit::sides::{Loading, SidesFit, SidesModel, SidesOptions, SidesTest};
 pub use table::SidesMeasurements;
 
+use core::cell::{Cell, RefCell};
 use core::fmt::Write as _;
+use core::ops::ControlFlow;
 
 use piola_charts::{Folder, Written};
 use piola_fit::FitError;
@@ -27,6 +29,7 @@ use piola_fit::sides::fit_sides;
 use serde_json::{Value, json};
 
 use crate::MeasuredError;
+use crate::comparison::Watch;
 use crate::fitting::{MOST_OF_CALCULIX, Program, lines, short_lines};
 
 /// Laws fitted to the same tests.
@@ -38,6 +41,8 @@ use crate::fitting::{MOST_OF_CALCULIX, Program, lines, short_lines};
 pub struct SidesComparison {
     /// Each law with its fit, or why it has none.
     pub laws: Vec<(SidesModel, Result<SidesFit, FitError>)>,
+    /// Whether the caller stopped it: laws that were not fitted until then are left out, and the last has linear intervals.
+    pub interrupted: bool,
 }
 
 /// Fits each law, with linear intervals.
@@ -80,11 +85,57 @@ pub fn compare_sides_with(
     options: &SidesOptions,
     intervals: Intervals,
 ) -> SidesComparison {
-    let fitted = laws.iter().map(|law| {
+    compare_sides_until(measurements, laws, options, intervals, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The same until `watch`, which is told the finished part of the work, breaks: laws that were fitted until then are returned. It is asked
+/// before each law and before each fit of its intervals.
+///
+/// # Example
+/// ```
+/// use core::ops::ControlFlow;
+/// use piola_measured::sides::{Intervals, SidesMeasurements, SidesOptions, compare_sides_until};
+/// let text = "mode,stretch,stress [MPa],lateral stretch\nuniaxial,0.5,-1.51,1\nuniaxial,0.8,-0.45,1\nuniaxial,0.9,-0.21,1\n";
+/// let measurements = SidesMeasurements::parse("foam.csv", text)?;
+/// let (laws, bootstrap) = (["hyperfoam:1".parse()?], "bootstrap:1000".parse()?);
+/// let mut asked = 0;
+/// let found = compare_sides_until(&measurements, &laws, &SidesOptions::default(), bootstrap, &mut |_| {
+///     asked += 1;
+///     if asked < 5 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+/// });
+/// // The law is fitted; its intervals are the linear ones.
+/// assert!(found.interrupted && found.fits().count() == 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn compare_sides_until(
+    measurements: &SidesMeasurements,
+    laws: &[SidesModel],
+    options: &SidesOptions,
+    intervals: Intervals,
+    watch: Watch<'_>,
+) -> SidesComparison {
+    let (watch, done, broken) = (RefCell::new(watch), Cell::new(0.0), Cell::new(false));
+    let stop = || {
+        if !broken.get() {
+            broken.set((*watch.borrow_mut())(done.get()).is_break());
+        }
+        broken.get()
+    };
+    let mut fitted = Vec::new();
+    for (index, law) in laws.iter().enumerate() {
+        let part = |done: f64| (index as f64 + done) / laws.len() as f64;
+        done.set(part(0.0));
+        if stop() {
+            break;
+        }
         let fit = fit_sides(*law, &measurements.tests, options);
-        (*law, fit.and_then(|fit| anew::with_intervals(fit, *law, &measurements.tests, options, intervals)))
-    });
-    SidesComparison { laws: fitted.collect() }
+        let step = |share: f64| done.set(part(share));
+        let with_intervals =
+            |fit| anew::with_intervals(fit, *law, &measurements.tests, options, intervals, (&step, &stop));
+        fitted.push((*law, fit.and_then(with_intervals)));
+    }
+    SidesComparison { laws: fitted, interrupted: broken.get() }
 }
 
 impl SidesComparison {
@@ -96,7 +147,7 @@ impl SidesComparison {
     /// Whether every law was fitted, and its search converged.
     #[must_use]
     pub fn is_complete(&self) -> bool {
-        self.laws.iter().all(|(_, fit)| fit.as_ref().is_ok_and(|fit| fit.outcome.is_converged()))
+        !self.interrupted && self.laws.iter().all(|(_, fit)| fit.as_ref().is_ok_and(|fit| fit.outcome.is_converged()))
     }
 
     /// The law of the least `AICc`.
@@ -162,6 +213,7 @@ impl SidesComparison {
             "data": measurements.path.display().to_string(),
             "stress_unit": measurements.unit,
             "read": measurements.notes,
+            "interrupted": self.interrupted,
             "best_by_aicc": self.best().map(|(law, _)| law.to_string()),
             "laws": self.laws.iter().map(law).collect::<Vec<Value>>(),
         });

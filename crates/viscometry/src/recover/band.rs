@@ -39,6 +39,15 @@ pub(super) fn critical(length: f64, freedom: f64, confidence: f64) -> f64 {
     high
 }
 
+/// Bands of smoothed curves are wider by this factor, because λ follows the rows too: of a straight curve, of two degrees of freedom, most. It
+/// was chosen with the fluids and flows of the tables of coverage.
+pub(super) fn selected(freedom: f64) -> f64 {
+    const MOST: f64 = 0.15;
+    /// Degrees of freedom from two to which the factor falls to one.
+    const OVER: f64 = 8.5;
+    1.0 + MOST * (1.0 - (freedom - 2.0) / OVER).clamp(0.0, 1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::critical;

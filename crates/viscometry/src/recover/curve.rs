@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::band::critical;
+use super::band::{critical, selected};
 use super::rule::{Below, ONE_POWER, Rule, assumed, coarse};
 use super::smoother::{Penalised, Smoother};
 use super::smoothing::{Criterion, Curve, EXACT, Fitted, Smoothing, thinned};
@@ -94,10 +94,6 @@ pub(super) const DEGREE: usize = 7;
 pub(super) const SAFETY: f64 = 2.0;
 /// Rows left out one at a time, at most.
 pub(super) const LEFT_OUT: usize = 40;
-
-/// Bands of smoothed curves are wider by this factor: λ follows the rows too. Chosen with the fluids and flows of the tables of coverage: without
-/// it the bands of Newtonian fluids and power laws hold some 91 % of the curves.
-const SELECTED: f64 = 1.12;
 
 /// A recovered curve: abscissas, the recovered quantity, and what bands follow from.
 #[derive(Clone, Debug, PartialEq)]
@@ -320,9 +316,10 @@ impl Recovered {
         self.rule.yields() && value().is_none_or(|[_, doubt]| UNKNOWN < doubt)
     }
 
-    /// The abscissa from which on values are known of a fluid that seems to yield.
+    /// The abscissa from which on all values are known of a fluid that seems to yield.
     fn known_from(&self) -> f64 {
-        let known = self.fine().find(|u| !self.is_unknown(*u));
+        let unknown = self.fine().filter(|u| self.is_unknown(*u)).last();
+        let known = self.fine().find(|u| unknown.is_none_or(|unknown| unknown < *u));
         self.abscissa(known.unwrap_or_else(|| match self.rule {
             // Beyond the table, where it is enough that the smallest drive is a step below.
             Rule::Series { step, .. } => self.u[0] + step,
@@ -385,7 +382,8 @@ impl Recovered {
             direction = Some(unit);
             deviations.push(deviation);
         }
-        let critical = SELECTED * critical(length, penalised.freedom, confidence);
+        let factor = selected(penalised.smoothing.degrees_of_freedom);
+        let critical = factor * critical(length, penalised.freedom, confidence);
         let kink = self.kink();
         let doubts = fine.iter().map(|&u| {
             let of_kink = kink.map_or(0.0, |kink| kink.doubt(u, self.logarithm(u)));
@@ -409,9 +407,12 @@ impl Recovered {
         let spacing = spacing(at[0])?.max(spacing(at[1]).unwrap_or(0.0));
         let width = spacing.max(PART * (self.u[self.u.len() - 1] - lowest));
         let rate = |u: f64| self.logarithm(u).map(f64::exp);
-        // Beside the yield stress: a rate that begins as a higher power than the first does not bend the curve.
-        let beside = 0.03 * width.min(step);
-        let rise = (rate(lowest + beside)? - rate(lowest)?) / beside;
+        // The rise at the yield torque, where the rate begins, from those beyond the lowest row: a rate that begins as a higher power than the
+        // first does not bend the curve.
+        let beside = width.min(step / 3.0);
+        let [first, second, third] = [rate(lowest)?, rate(lowest + beside)?, rate(lowest + 2.0 * beside)?];
+        let rises = [(second - first) / beside, (third - second) / beside];
+        let rise = rises[0] - (rises[1] - rises[0]) * (0.5 + 2.0 / (slope * beside));
         Some(Kink { at, width, rise })
     }
 

@@ -8,6 +8,8 @@
 //!
 //! The parameters are u at the anchor and c₀, c₁, …
 
+use std::sync::Arc;
+
 use nalgebra::DMatrix;
 
 use super::splines::{Derivatives, Splines};
@@ -83,13 +85,14 @@ impl Panels {
 /// The curve.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct LogSlope {
-    panels: Panels,
-    anchor: usize,
+    panels: Arc<Panels>,
     /// θ on each panel.
     theta: Vec<Cubic>,
+    /// e^θ at the ends of the panels.
+    ends: Vec<f64>,
     /// u at the ends of the panels.
     along: Vec<f64>,
-    /// −∂u/∂cⱼ at the ends of the panels: a row each.
+    /// −∂u/∂cⱼ at the ends of the panels: a column each.
     reach: DMatrix<f64>,
 }
 
@@ -103,14 +106,14 @@ struct Place {
 
 impl LogSlope {
     /// With u at the beginning of the panel `anchor` as the first parameter.
-    pub(super) fn new(panels: &Panels, anchor: usize, parameters: &[f64]) -> Self {
+    pub(super) fn new(panels: &Arc<Panels>, anchor: usize, parameters: &[f64]) -> Self {
         let (count, all) = (panels.count, &panels.panels);
         let mut curve = Self {
-            panels: panels.clone(),
-            anchor,
+            panels: Arc::clone(panels),
             theta: Vec::with_capacity(all.len()),
+            ends: Vec::with_capacity(all.len() + 1),
             along: vec![0.0; all.len() + 1],
-            reach: DMatrix::zeros(all.len() + 1, count),
+            reach: DMatrix::zeros(count, all.len() + 1),
         };
         let coefficients = &parameters[1..];
         for panel in all {
@@ -118,23 +121,24 @@ impl LogSlope {
             curve.theta.push(core::array::from_fn(sum));
         }
         for panel in 0..all.len() {
-            curve.along[panel + 1] = curve.along[panel] + curve.length(panel, 1.0);
-            for j in 0..count {
-                curve.reach[(panel + 1, j)] = curve.reach[(panel, j)];
-            }
-            let (first, parts) = curve.kernel(panel, 1.0);
+            let (first, length, parts) = curve.kernel(panel, 1.0);
+            curve.ends.push(curve.steepness(panel, 0.0));
+            curve.along[panel + 1] = curve.along[panel] + length;
+            let (before, mut after) = curve.reach.columns_range_pair_mut(panel, panel + 1);
+            after.copy_from(&before);
             for (j, part) in parts.into_iter().enumerate() {
-                curve.reach[(panel + 1, first + j)] += part;
+                after[first + j] += part;
             }
         }
-        let (shift, anchored) = (parameters[0] - curve.along[anchor], curve.reach.row(anchor).into_owned());
+        curve.ends.push(curve.steepness(all.len() - 1, 1.0));
+        let (shift, anchored) = (parameters[0] - curve.along[anchor], curve.reach.column(anchor).into_owned());
         curve.along.iter_mut().for_each(|u| *u += shift);
-        curve.reach.row_iter_mut().for_each(|mut row| row -= &anchored);
+        curve.reach.column_iter_mut().for_each(|mut column| column -= &anchored);
         curve
     }
 
     /// The number of parameters.
-    pub(super) const fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.panels.count + 1
     }
 
@@ -149,18 +153,19 @@ impl LogSlope {
         x * self.panels.panels[panel].width * FOUR.into_iter().map(part).sum::<f64>()
     }
 
-    /// ∫ 2 e^θ/(1 + e^θ)² Bⱼ dt from the beginning of a panel, from the first spline on.
-    fn kernel(&self, panel: usize, x: f64) -> (usize, [f64; DEGREE + 1]) {
+    /// ∫ du/dt dt and ∫ 2 e^θ/(1 + e^θ)² Bⱼ dt from the beginning of a panel, from the first spline on.
+    fn kernel(&self, panel: usize, x: f64) -> (usize, f64, [f64; DEGREE + 1]) {
         let Panel { width, first, splines, .. } = &self.panels.panels[panel];
-        let mut sums = [0.0; DEGREE + 1];
+        let (mut length, mut sums) = (0.0, [0.0; DEGREE + 1]);
         for (node, weight) in FOUR {
             let rest = (1.0 + self.steepness(panel, x * node)).recip();
-            let size = x * width * weight * 2.0 * rest * (1.0 - rest);
+            let size = x * width * weight * 2.0 * rest;
+            length += size;
             for (sum, spline) in sums.iter_mut().zip(splines) {
-                *sum += size * value(spline, x * node);
+                *sum += size * (1.0 - rest) * value(spline, x * node);
             }
         }
-        (*first, sums)
+        (*first, length, sums)
     }
 
     /// Where u is; beyond the ends along the tangent.
@@ -179,13 +184,17 @@ impl LogSlope {
         let panel = self.along[1..last].partition_point(|edge| *edge <= u);
         let (before, after) = (self.along[panel], self.along[panel + 1]);
         let half = 0.5 / self.panels.panels[panel].width;
-        let mut x = ((u - before) / (after - before)).clamp(0.0, 1.0);
+        // The cubic of u with the slopes at both ends is near: Newton's method squares what it misses.
+        let share = ((u - before) / (after - before)).clamp(0.0, 1.0);
+        let [low, high] = [0, 1].map(|end| (after - before) * half * (1.0 + self.ends[panel + end]) - 1.0);
+        let bend = share * (1.0 - share) * (low * (1.0 - share) - high * share);
+        let mut x = (share + bend).clamp(0.0, 1.0);
         for _ in 0..12 {
             let missing = u - before - self.length(panel, x);
             let next = (x + missing * half * (1.0 + self.steepness(panel, x))).clamp(0.0, 1.0);
             let step = (next - x).abs();
             x = next;
-            if step <= 1e-15 {
+            if step <= 1e-9 {
                 break;
             }
         }
@@ -215,6 +224,14 @@ impl LogSlope {
         ]
     }
 
+    /// y at u; its derivatives with respect to all parameters, times a weight, are added to a row.
+    pub(super) fn accumulate_value(&self, row: &mut [f64], weight: f64, u: f64) -> f64 {
+        let place = self.place(u);
+        let (t, _, s) = self.here(place);
+        self.add(row, place, [-weight * (1.0 + s), 0.0, 0.0]);
+        2.0 * t - u
+    }
+
     /// Adds Σ `weights[k]` ∂y⁽ᵏ⁾(u)/∂p, k ≤ 2, to a row of all parameters.
     pub(super) fn accumulate(&self, row: &mut [f64], weights: Derivatives, u: f64) {
         let place = self.place(u);
@@ -222,24 +239,28 @@ impl LogSlope {
         let [of_value, first, second, ..] = weights;
         let (half, steep) = (0.5 * (s + s * s), 0.5 * (s + 2.0 * s * s) * a);
         let of_t = 2.0 * of_value + s * a * first + second * (steep * a + half * b);
-        let of_u = -0.5 * (1.0 + s) * of_t;
+        self.add(row, place, [-0.5 * (1.0 + s) * of_t, s * first + steep * second, half * second]);
+    }
+
+    /// Adds derivatives with respect to the parameters, which follow from those with respect to u, θ and dθ/dt.
+    fn add(&self, row: &mut [f64], place: Place, [of_u, of_theta, of_slope]: [f64; 3]) {
         row[0] += of_u;
         let row = &mut row[1..];
-        for (entry, reach) in row.iter_mut().zip(self.reach.row(place.panel).iter()) {
+        for (entry, reach) in row.iter_mut().zip(self.reach.column(place.panel).iter()) {
             *entry -= of_u * reach;
         }
         let Panel { width, splines, .. } = &self.panels.panels[place.panel];
-        let (begin, kernel) = self.kernel(place.panel, place.x);
+        let (begin, _, kernel) = self.kernel(place.panel, place.x);
         for ((entry, part), spline) in row[begin..].iter_mut().zip(kernel).zip(splines) {
-            *entry += (s * first + steep * second) * value(spline, place.x)
-                + half * second * slope(spline, place.x) / width
-                - of_u * part;
+            *entry += of_theta * value(spline, place.x) + of_slope * slope(spline, place.x) / width - of_u * part;
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::super::splines::Splines;
     use super::{LogSlope, Panels};
 
@@ -248,7 +269,7 @@ mod tests {
         let splines = Splines::on(&abscissas, 3);
         let mut parameters: Vec<f64> = (0..10).map(|k| 0.3 + (1.7 * f64::from(k)).sin()).collect();
         parameters[change] += by;
-        LogSlope::new(&Panels::of(&splines), 5, &parameters)
+        LogSlope::new(&Arc::new(Panels::of(&splines)), 5, &parameters)
     }
 
     #[test]

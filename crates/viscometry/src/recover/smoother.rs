@@ -4,10 +4,14 @@
 //! minimise Σ (yᵢ − y(uᵢ))² + λ ∫ (dᵐθ/dtᵐ)² dt     m = 1: a power law costs nothing; m = 2: nor does a yield stress, far from the bend
 //! λ, m: least  n RSS/(n − 1.4 ν)²,  ν = tr S       or, with a known σ, least  RSS + 2 σ² ν
 //! ```
+//! The penalty of the curve is a step below this λ: what smoothing misses is then less beside what scatters.
+//!
 //! S is the linearised smoother. Smoothing pulls the curve towards a power law. A second fit, whose penalty is on the change from the
 //! first, corrects this bias to its second order: (I − S)² y in place of (I − S) y. The covariance is that of this second curve, σ² S₂ S₂ᵀ with
 //! S₂ = 2 S − S², so that bands are as wide as the curve scatters (S. Calonico, M. D. Cattaneo, M. H. Farrell, 2018). 1.4 makes
 //! generalised cross-validation undersmooth less often (Y.-J. Kim, C. Gu, 2004).
+
+use std::sync::Arc;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -23,6 +27,8 @@ const ROWS: usize = 2048;
 const LADDER: core::ops::RangeInclusive<i32> = -40..=40;
 /// Steps of the ladder for a factor of e.
 const STEPS: f64 = 2.0;
+/// The curve is rougher than the criterion's by so many steps: what smoothing misses is then less beside what scatters.
+const UNDER: i32 = 1;
 /// Cost of a degree of freedom.
 const COST: f64 = 1.4;
 
@@ -62,7 +68,7 @@ pub(super) struct Smoother {
     level: f64,
     known: Option<f64>,
     splines: Splines,
-    panels: Panels,
+    panels: Arc<Panels>,
     anchor: usize,
     start: DVector<f64>,
     /// The trace of `JᵀJ` at the start.
@@ -100,6 +106,22 @@ fn groups(u: &[f64]) -> Vec<usize> {
     }
     sizes.push(u.len() - first);
     sizes
+}
+
+/// J Jᵀ: half the work of a product of two matrices.
+fn square(jacobian: &DMatrix<f64>) -> DMatrix<f64> {
+    let rows = jacobian.nrows();
+    let mut sums = vec![0.0; rows * rows];
+    for column in jacobian.as_slice().chunks_exact(rows) {
+        for (k, (factor, sums)) in column.iter().zip(sums.chunks_exact_mut(rows)).enumerate() {
+            for (sum, entry) in sums[k..].iter_mut().zip(&column[k..]) {
+                *sum += factor * entry;
+            }
+        }
+    }
+    let mut square = DMatrix::from_vec(rows, rows, sums);
+    square.fill_upper_triangle_with_lower_triangle();
+    square
 }
 
 /// A Cholesky factor of a matrix, made a little more definite if it has none.
@@ -141,7 +163,7 @@ impl Smoother {
         let (low, width) = (low - margin, high - low + 2.0 * margin);
         let knots: Vec<f64> = (0..count).map(|k| low + width * k as f64 / (count - 1) as f64).collect();
         let splines = Splines::on(&knots, DEGREE);
-        let panels = Panels::of(&splines);
+        let panels = Arc::new(Panels::of(&splines));
         let mut smoother = Self {
             u: groups_u,
             y: groups_y,
@@ -234,19 +256,14 @@ impl Smoother {
         let mut residuals = DVector::zeros(self.u.len());
         for (i, ((u, y), weight)) in self.u.iter().zip(&self.y).zip(&self.weights).enumerate() {
             let mut column = jacobian.column_mut(i);
-            curve.accumulate(column.as_mut_slice(), [*weight, 0.0, 0.0, 0.0, 0.0], *u);
-            residuals[i] = weight * (y - curve.at(*u)[0]);
+            residuals[i] = weight * (y - curve.accumulate_value(column.as_mut_slice(), *weight, *u));
         }
         (jacobian, residuals)
     }
 
     fn linear(&self, parameters: &DVector<f64>) -> Linear {
         let (jacobian, residuals) = self.derivatives(parameters);
-        Linear {
-            normal: &jacobian * jacobian.transpose(),
-            right: &jacobian * &residuals,
-            squares: residuals.norm_squared(),
-        }
+        Linear { normal: square(&jacobian), right: &jacobian * &residuals, squares: residuals.norm_squared() }
     }
 
     /// Levenberg and Marquardt's steps, at most so many, from some parameters; the penalty is on the change from a centre.
@@ -391,11 +408,12 @@ impl Smoother {
     /// The fit at a choice, its bias corrected.
     pub(super) fn fit(&self, choice: &Choice, raised: bool) -> Option<Penalised> {
         let penalty = self.penalty(choice.order);
-        let parameter = self.parameter(choice.rung, &penalty);
+        let parameter = self.parameter(choice.rung - UNDER, &penalty);
         let penalty = parameter * penalty;
-        let x = self.descend(&choice.parameters, Some(&choice.parameters), &penalty, 20);
+        let first = self.descend(&choice.parameters, None, &penalty, 20);
+        let x = self.descend(&first, Some(&first), &penalty, 20);
         let (jacobian, residuals) = self.derivatives(&x);
-        let normal = &jacobian * jacobian.transpose();
+        let normal = square(&jacobian);
         let factor = factor(&normal + &penalty)?;
         let once = factor.solve(&normal);
         let square = &once * &once;

@@ -2,6 +2,7 @@
 
 use piola_testkit::NormalNoise;
 use piola_testkit::golden::text;
+use piola_viscometry::ViscometryError;
 use piola_viscometry::recover::{
     Criterion, FlowCurve, FlowTable, Monotonicity, Noise, Options, Rise, couette, pipe_with,
 };
@@ -9,8 +10,17 @@ use serde_json::Value;
 
 use super::golden::{cases, recovered};
 
-/// Trials in which the band holds every true point at once.
-fn held(case: &Value, flow: &str, trials: u32) -> u32 {
+/// The value below which this share of the numbers lies.
+fn quantile(mut numbers: Vec<f64>, share: f64) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in a list")]
+    let place = (share * (numbers.len() as f64 - 1.0)).round() as usize;
+    numbers[place]
+}
+
+/// Trials in which the band holds every true point at once, and the largest ratio, over the rows, of the median half width and the 95th
+/// percentile of the error.
+fn held(case: &Value, flow: &str, trials: u32) -> (u32, f64) {
     // Each fluid and flow has noise of its own.
     let seed = text(&case["id"])
         .bytes()
@@ -18,27 +28,35 @@ fn held(case: &Value, flow: &str, trials: u32) -> u32 {
         .fold(2026_u64, |seed, byte| u64::wrapping_add(u64::wrapping_mul(seed, 31), byte.into()));
     let mut normal = NormalNoise(seed);
     let mut held = 0;
+    let mut rows = vec![(Vec::new(), Vec::new()); 25];
     for _ in 0..trials {
         let (curve, truth) = recovered(case, flow, || 0.01 * normal.draw()).expect("a curve");
         let curve = curve.with_band(0.95).expect("a band");
-        let inside = |[stress, rate]: [f64; 2]| {
-            let [low, high] = curve.at(stress).expect("measured").band.expect("asked for");
-            low <= rate && rate <= high
-        };
-        // Every point is looked at.
-        let outside = truth.into_iter().map(inside).filter(|inside| !inside).count();
+        let mut outside = 0;
+        for (row, [stress, rate]) in truth.into_iter().enumerate() {
+            let point = curve.at(stress).expect("measured");
+            let [low, high] = point.band.expect("asked for");
+            outside += u32::from(!(low <= rate && rate <= high));
+            rows[row].0.push(0.5 * (high - low) / rate);
+            rows[row].1.push((point.shear_rate / rate - 1.0).abs());
+        }
         held += u32::from(outside == 0);
     }
-    held
+    let ratio = |(widths, errors): (Vec<f64>, Vec<f64>)| quantile(widths, 0.5) / quantile(errors, 0.95);
+    (held, rows.into_iter().map(ratio).fold(0.0, f64::max))
 }
 
-/// A hundred trials of every fluid, of which a coverage of 95 % holds 95 ± 2.2: three deviations are allowed. The test of each flow is apart, so
-/// that they run beside one another.
+/// A hundred trials of every fluid, of which a coverage of 95 % holds 95 ± 2.2: three deviations are allowed. Of all 900 tables 92 to 98 % are
+/// held. The half width is at most three times the 95th percentile of the error; of 100 tables this ratio scatters by a tenth. The test of
+/// each flow is apart, so that they run beside one another.
 fn every_fluid(flow: &str) {
+    let mut all = 0;
     for case in cases() {
-        let held = held(&case, flow, 100);
-        assert!(88 <= held, "{} {flow}: {held}", text(&case["id"]));
+        let (held, ratio) = held(&case, flow, 100);
+        assert!(88 <= held && ratio <= 3.0, "{} {flow}: {held} {ratio}", text(&case["id"]));
+        all += held;
     }
+    assert!((828..=882).contains(&all), "{flow}: {all}");
 }
 
 #[test]
@@ -157,4 +175,45 @@ fn bands_of_coaxial_cylinders_hold_the_truth_of_tables_that_begin_beyond_the_yie
         held += u32::from(stresses.iter().all(is_held));
     }
     assert!(36 <= held, "{held}");
+}
+
+/// A fluid that yields and then thickens, k = √(τ − 1): just below the torque at which the rates at the outer cylinder are those of the
+/// smallest torque at the inner one, most of a rate hangs on torques that were not measured.
+#[test]
+fn rates_that_hang_on_torques_below_the_smallest_one_are_refused_by_name() {
+    let (outer, lowest) = (1.1_f64, 1.09_f64);
+    // ½ ∫ √(s − 1) ds/s between the stresses at both cylinders.
+    let primitive = |t: f64| (t - 1.0).sqrt() - (t - 1.0).sqrt().atan();
+    let speed = |t: f64| primitive(t) - primitive((t / (outer * outer)).max(1.0));
+    let mut normal = NormalNoise(17);
+    let stresses: Vec<f64> = (0..60).map(|i| lowest * (0.02 * f64::from(i)).exp()).collect();
+    let mut noisy = |t: &f64| [core::f64::consts::TAU * t, speed(*t) * (1.0 + 0.01 * normal.draw())];
+    let rows: Vec<_> = stresses.iter().map(&mut noisy).collect();
+    let curve = couette(&FlowTable::couette(1.0, outer, &rows).expect("a table")).expect("a curve");
+    let curve = curve.with_band(0.95).expect("a band");
+    let step = 2.0 * outer.ln();
+    let (mut refused, mut told) = (0, 0);
+    for stress in stresses {
+        match curve.at(stress) {
+            Ok(point) => {
+                let [low, high] = point.band.expect("asked for");
+                let truth = (stress - 1.0).sqrt();
+                assert!(low <= truth && truth <= high, "{stress}: {point:?}");
+                told += 1;
+            }
+            Err(error) => {
+                let ViscometryError::YieldUnknown { rows: 60, above } = error else { panic!("{error}") };
+                // Rows are known again from about a gap above the smallest torque on, and the error says so.
+                assert!(stress < above && (above / lowest).ln() < 1.05 * step, "{stress} {above}");
+                assert!(0.5 * step < (stress / lowest).ln(), "{stress}");
+                refused += 1;
+            }
+        }
+    }
+    assert!(0 < refused && refused + told == 60 && 54 <= told, "{refused} {told}");
+    // A table that ends there is refused as a whole.
+    let short: Vec<_> = rows.into_iter().take(10).collect();
+    let found = couette(&FlowTable::couette(1.0, outer, &short).expect("a table"));
+    let Err(ViscometryError::YieldUnknown { rows: 10, above }) = found else { panic!("{found:?}") };
+    assert!(((above / lowest).ln() / step - 1.0).abs() < 1e-12, "{above}");
 }
