@@ -137,7 +137,7 @@ fn a_signal_ends_a_bootstrap_of_a_foam_whose_fit_is_written_with_linear_interval
         .stderr(Stdio::piped())
         .spawn()
         .unwrap_or_else(|error| panic!("{error}"));
-    std::thread::sleep(Duration::from_millis(1000));
+    std::thread::sleep(Duration::from_secs(1));
     let sent = Command::new("kill").args(["-INT", &run.id().to_string()]).status();
     assert!(sent.is_ok_and(|status| status.success()));
     let begun = Instant::now();
