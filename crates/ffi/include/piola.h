@@ -269,7 +269,8 @@ PiolaStatus piola_umat(const char *name,
 //
 // `before` and `after` have n (`direct` + `shear`) numbers, each component an array: 11, 22, 33, 12, 23, 13; with a null pointer
 // the body is undeformed before. `added` is added to the diagonal of `after`: 0 for stretches, 1 for small strains. `temperatures` has n
-// numbers, tempNew, which the law `thermal` takes in the place of its states; with none of them these stay as they are. `old` and `new_states`
+// numbers, tempNew, which the law `thermal` takes as its new states. Without temperatures `thermal` keeps its states, and a state of zero
+// becomes the reference temperature. `old` and `new_states`
 // have n `state_length` numbers, each variable an array; a state of zeros is that of the body as it was made, and states of elastic laws are
 // copied. `stresses` gets as many numbers as `after` has. Outputs that overlap inputs or one another are refused.
 PiolaStatus piola_vumat(const char *name,
@@ -354,8 +355,9 @@ PiolaStatus piola_history_initial_states(const PiolaHistory *history,
 // `stress` is a `PiolaStress`, `tangent` a `PiolaTangent`, `voigt` a `PiolaVoigt`, `layout` a `PiolaLayout`. The deformation gradients
 // `from` and `to`, 9 n numbers by rows, are those at the start and the end; the increment takes `dt` s. `tolerance` bounds the estimated
 // error of the internal variables; with 0 the increment is one implicit step. `before` and `after` have n states. Outputs that overlap
-// inputs or one another are refused: `after` is other memory than `before`. `tangents` may be a null pointer with the length 0: no tangent is then computed; otherwise it gets 81 or 36 numbers a point, by rows, which lack the
-// major symmetry in general.
+// inputs or one another are refused: `after` is other memory than `before`.
+// `tangents` gets 81 or 36 numbers a point, by rows, without major symmetry in general. With a null pointer and the length 0 no tangent is
+// computed.
 //
 // After `PIOLA_STATUS_BAD_POINTS` stresses and tangents of the points that failed are NaN and their new states those before; the message
 // names the first of them, and the share of the increment up to which an update was found. All others are advanced.

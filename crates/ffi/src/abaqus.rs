@@ -8,9 +8,9 @@
 //! | state | `STATEV` | `stateOld` to `stateNew`, each variable an array |
 //! | points a call | 1 | a block, each component an array |
 //!
-//! A law with history takes one implicit step an increment; its tangent is consistent, and not symmetric in general. A state of zeros alone, with
-//! which Abaqus begins, is that of the body as it was made. The state of `thermal` is the temperature at the end of the increment, which Abaqus
-//! gives: there any number counts, zero too. An elastic law uses the deformation after alone, and leaves the state as it is.
+//! A law with history takes one implicit step an increment; its tangent is consistent, and not symmetric in general. A state of zeros, with
+//! which Abaqus begins, stands for the undeformed body. The state of `thermal` is the temperature at the end of the increment; Abaqus gives it,
+//! and zero is a temperature like any other. An elastic law uses the deformation after alone, and leaves the state as it is.
 
 use crate::FfiError;
 use crate::blocks::BLOCK;
@@ -86,7 +86,9 @@ pub fn umat(
     }
     check_length("STRESS", count, stress_out.len())?;
     check_length("DDSDDE", count * count, tangent_out.len())?;
-    check_finite("temperature", &[increment.temperature])?;
+    if material.state_length().is_some() {
+        check_finite("temperature", &[increment.temperature])?;
+    }
     let by_rows = |[a, b, c, d, e, g, h, i, j]: [f64; 9]| [[a, d, h, b, e, i, c, g, j]];
     let [from, to] = increment.f.map(|f| by_rows(*f));
     let (mut whole, mut tangent) = ([[0.0; 9]], [0.0; 36]);
@@ -187,10 +189,13 @@ pub fn vumat(
         check_length("stateOld", points * length, old.len())?;
     }
     check_length("stateNew", old.len(), new.len())?;
-    check_finite("stretchOld", before)?;
     check_finite("stretchNew", after)?;
-    check_finite("tempNew", temperatures)?;
-    check_finite("stateOld", old)?;
+    let has_history = material.state_length().is_some();
+    if has_history {
+        check_finite("stretchOld", before)?;
+        check_finite("tempNew", temperatures)?;
+        check_finite("stateOld", old)?;
+    }
     let mut failures = Failures::default();
     let still = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
     let (mut from, mut to, mut whole) = ([still; BLOCK], [still; BLOCK], [[0.0; 9]; BLOCK]);
@@ -204,7 +209,7 @@ pub fn vumat(
             }
         };
         stretches(after, added, &mut to[..here]);
-        if !before.is_empty() {
+        if has_history && !before.is_empty() {
             stretches(before, 0.0, &mut from[..here]);
         }
         let (from, to, whole) = (&from[..here], &to[..here], &mut whole[..here]);

@@ -102,7 +102,8 @@ pub enum FfiError {
     /// The file of a material cannot be read.
     #[error(
         "material `{name}` is neither a law nor a file: `{path}`: {message}. Files of materials are searched for in the \
-         folder that the environment variable PIOLA_MATERIALS names, or else in the working folder"
+         folder that the environment variable PIOLA_MATERIALS names, or else in the working folder. \
+         Laws with history need a library built with its feature `history`"
     )]
     NoMaterial {
         /// The name of the material.

@@ -152,7 +152,7 @@ pub fn material_state_length(name: &str) -> Result<usize, FfiError> {
     if is_history(name) {
         named::state_length(name)
     } else if named::is_law(name) {
-        Ok(0)
+        named::Resolved::of(name).map(|_| 0)
     } else {
         Ok(material(name, &[])?.state_length().unwrap_or(0))
     }

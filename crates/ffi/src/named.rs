@@ -171,7 +171,7 @@ pub(crate) fn list<'n>(names: impl Iterator<Item = &'n str>) -> String {
 }
 
 impl Resolved {
-    fn of(name: &str) -> Result<Self, FfiError> {
+    pub(crate) fn of(name: &str) -> Result<Self, FfiError> {
         let mut words = words(name).into_iter();
         let resolved = Self::of_words(&mut words)?;
         match words.next() {

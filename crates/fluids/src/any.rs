@@ -1,6 +1,7 @@
 //! Any of the built-in fluids as one type, for programs that read which fluid it is.
 
 use piola_numerics::Real;
+use piola_numerics::internal::outlined;
 
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use super::{
@@ -180,14 +181,9 @@ any_fluid! {
 
 /// A choice in a function of its own, compiled once for a scalar: a flow asks in dozens of places, and all fluids would stand in each. In
 /// lanes it is inlined, for the instructions of its caller.
-#[inline(never)]
-fn apart<R>(choice: impl FnOnce() -> R) -> R {
-    choice()
-}
-
 macro_rules! once {
     ($scalar:ty: $choice:expr) => {
-        if const { <$scalar as Real>::LANES == 1 } { apart(|| $choice) } else { $choice }
+        if const { <$scalar as Real>::LANES == 1 } { outlined(|| $choice) } else { $choice }
     };
 }
 

@@ -17,6 +17,9 @@ pub(crate) const FOUR: usize = 4;
 /// in longer passes.
 pub(crate) const DENSE: usize = 128;
 
+/// Freedoms up to which trees know which freedoms lie on one way to the ground: links × freedoms/4 bytes.
+const MOST: usize = 4096;
+
 /// R numbers for each of eight freedoms.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
@@ -50,7 +53,7 @@ pub(crate) fn six<T: Real>((a, b): Pair<T>) -> [T; 6] {
     [a[0], a[1], a[2], b[0], b[1], b[2]]
 }
 
-/// Scalars of which eight fit a register.
+/// Whether a scalar takes at most eight bytes, so that eight of them fit a register of 512 bits.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) const fn is_plain<T>() -> bool {
     size_of::<T>() <= size_of::<f64>()
@@ -60,7 +63,7 @@ pub(crate) const fn is_plain<T>() -> bool {
 /// waiting, and for scalars of which eight do not fit a register.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) const fn is_paired<T>(freedoms: usize, most: usize) -> bool {
-    !is_plain::<T>() || freedoms <= most
+    !is_plain::<T>() || freedoms <= most || MOST < freedoms
 }
 
 /// Σ a_c x_c in triples of components.
@@ -154,6 +157,9 @@ pub(crate) struct Relatives {
 impl Relatives {
     pub(crate) fn of_links(links: &[Link], freedoms: usize) -> Self {
         let eights = freedoms.div_ceil(EIGHT);
+        if MOST < freedoms {
+            return Self { bits: Vec::new(), lists: Vec::new(), eights };
+        }
         let mut bits = vec![[0; 2]; links.len() * eights];
         for (i, link) in links.iter().enumerate().filter(|(_, link)| link.parent != 0) {
             let parent = link.parent - 1;

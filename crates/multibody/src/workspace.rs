@@ -3,7 +3,7 @@
 use piola_numerics::Real;
 
 use crate::error::MultibodyError;
-use crate::freedoms::{DENSE, EIGHT, Eight, FOUR};
+use crate::freedoms::{DENSE, EIGHT, Eight, FOUR, is_plain};
 use crate::link::Pair;
 use crate::spatial::{Matrix, Symmetric, Vector};
 use crate::tree::RigidTree;
@@ -136,16 +136,17 @@ pub struct TreeWorkspace<T> {
     pub(crate) column_vectors: Vec<ColumnVectors<T>>,
     /// Sines and cosines of the coordinates, eight and eight.
     pub(crate) turns: Vec<Eight<T, 2>>,
-    /// S of the freedoms in space about the reference point.
+    /// S of the freedoms in space about the reference point, eight and eight.
     pub(crate) subspaces: Vec<Eight<T, 6>>,
+    /// The same, freedom after freedom.
     pub(crate) motions: Vec<[T; 6]>,
-    /// What the freedoms feel: 𝕀 S, and u₄ of derivatives.
+    /// u₁ = 𝕀 S of each freedom and, for derivatives, the angular part of its u₄.
     pub(crate) felt: Vec<Eight<T, 9>>,
     pub(crate) vectors: Vec<FreedomVectors<T>>,
     pub(crate) dense: Dense<T>,
 }
 
-/// What M⁻¹ and its products need, for trees so small that these are the fastest: matrices by rows, four columns.
+/// Memory for M⁻¹ and its products, for trees of up to [`DENSE`] freedoms. Matrices are stored by rows.
 #[derive(Clone, Debug)]
 pub(crate) struct Dense<T> {
     /// Sums on the way to the ground, for each freedom.
@@ -258,7 +259,7 @@ impl RigidTree {
             motions: vec![symmetric; n],
             felt: Eight::zeros(n),
             vectors: vec![freedom; n],
-            dense: Dense::new(if n <= DENSE { n } else { 0 }),
+            dense: Dense::new(if is_plain::<T>() && n <= DENSE { n } else { 0 }),
         }
     }
 

@@ -1,5 +1,6 @@
 //! Differences of elementary functions that would cancel if they were formed.
 
+use crate::outlined::outlined;
 use crate::{Mask, Real};
 
 /// x − ln(1 + x), of second order in x, without cancellation.
@@ -19,13 +20,8 @@ pub fn excess_over_logarithm<T: Real>(x: T) -> T {
 /// x − ln(1 + x) of |x| ≤ ½.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn small_excess<T: Real>(x: T) -> T {
-    if T::ORDER == 0 { series(x) } else { series_apart(x) }
-}
-
-/// Of numbers with derivatives the series is long: it is compiled once for each.
-#[inline(never)]
-fn series_apart<T: Real>(x: T) -> T {
-    series(x)
+    // Of numbers with derivatives the series is long: it is compiled once for each. In lanes it is inlined, for the instructions of its caller.
+    if const { T::ORDER == 0 || 1 < T::LANES } { series(x) } else { outlined(|| series(x)) }
 }
 
 /// ```text

@@ -26,6 +26,7 @@ mod lanewise;
 pub mod linear;
 #[cfg(feature = "num-dual")]
 mod num_dual;
+mod outlined;
 mod parameters;
 mod prefetch;
 pub mod quadrature;
@@ -51,6 +52,7 @@ pub mod internal {
     pub use crate::lanewise::Lanewise;
     pub use crate::linear::independent_rows::IndependentRows;
     pub use crate::linear::vectors::{dot, size, zeros};
+    pub use crate::outlined::outlined;
     pub use crate::prefetch::{prefetch, prefetch_for_writing};
 }
 

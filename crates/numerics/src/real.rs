@@ -154,7 +154,8 @@ pub trait Real:
     /// (sin x, cos x).
     #[must_use]
     fn sin_cos(self) -> (Self, Self);
-    /// Sines and cosines of eight angles; of `f64` and `f32` side by side, to 2 ulp, in much less time than one after the other.
+    /// Sines and cosines of eight angles, to 2 ulp. Those of `f64` and `f32` are computed side by side, in less time than one after the other
+    /// unless some |angle| exceeds 2.6e7. Their last bits may differ from those of [`sin_cos`](Self::sin_cos).
     #[must_use]
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn sin_cos_of_eight(angles: [Self; 8]) -> ([Self; 8], [Self; 8]) {
@@ -356,16 +357,16 @@ macro_rules! real_for_float {
                 for angle in angles {
                     is_near &= f64::from(angle).abs() <= LIMIT;
                 }
-                let mut k = 0;
-                while k < 8 && !is_near {
-                    (sines[k], cosines[k]) = $float::sin_cos(angles[k]);
-                    k += 1;
+                if !is_near {
+                    for k in 0..8 {
+                        (sines[k], cosines[k]) = $float::sin_cos(angles[k]);
+                    }
+                    return (sines, cosines);
                 }
-                while k < 8 {
+                for k in 0..8 {
                     let (sine, cosine) = sin_cos(f64::from(angles[k]));
                     sines[k] = Self::lit(sine);
                     cosines[k] = Self::lit(cosine);
-                    k += 1;
                 }
                 (sines, cosines)
             }

@@ -68,7 +68,7 @@ def test_layouts_shapes_and_outputs_agree(law):
     f = deformations(24).reshape(4, 6, 3, 3)
     with_tangent, tangent, after = law.advance(np.eye(3), f, 0.25, tangent="jaumann", voigt="abaqus")
     stress, state = law.advance(np.eye(3), f, 0.25)
-    # Without a tangent no derivative is computed: the last bits differ.
+    # Without a tangent other operations are done: the last bits differ.
     np.testing.assert_allclose(with_tangent, stress, rtol=0.0, atol=1e-13)
     np.testing.assert_allclose(after, state, rtol=0.0, atol=1e-13)
     assert stress.shape == f.shape and tangent.shape == (4, 6, 6, 6) and state.shape == (4, 6, 9)

@@ -134,13 +134,13 @@ pub enum ViscometryError {
     },
     /// Speeds of coaxial cylinders fall towards the smallest torque as those of a fluid that yields.
     #[error(
-        "the speeds fall towards the smallest torque as those of a fluid that yields: shear rates are known from the stress \
-         {above:e} Pa on; below, too much of a rate depends on torques that were not measured: fit a fluid with a yield stress"
+        "the speeds fall towards the smallest torque as those of a fluid that yields: all shear rates are known from the stress \
+         {above:e} Pa on; below, some depend too much on torques that were not measured: fit a fluid with a yield stress"
     )]
     YieldUnknown {
         /// Rows of the table.
         rows: usize,
-        /// The stress from which on values are known, Pa.
+        /// The stress from which on all values are known, Pa.
         above: f64,
     },
     /// A recovered curve is asked for beyond what was measured.

@@ -46,7 +46,7 @@ const WHOLE: [(&str, &str); 36] = [
 /// `lbf/100 ft²`, `µNm`, `Mpa`.
 ///
 /// # Errors
-/// That of [`Unit`]'s own spelling.
+/// [`UnitError`], as parsing a [`Unit`] from the text.
 ///
 /// # Example
 /// ```

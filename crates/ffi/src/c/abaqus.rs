@@ -81,7 +81,8 @@ pub unsafe extern "C" fn piola_umat(
 ///
 /// `before` and `after` have n (`direct` + `shear`) numbers, each component an array: 11, 22, 33, 12, 23, 13; with a null pointer
 /// the body is undeformed before. `added` is added to the diagonal of `after`: 0 for stretches, 1 for small strains. `temperatures` has n
-/// numbers, tempNew, which the law `thermal` takes in the place of its states; with none of them these stay as they are. `old` and `new_states`
+/// numbers, tempNew, which the law `thermal` takes as its new states. Without temperatures `thermal` keeps its states, and a state of zero
+/// becomes the reference temperature. `old` and `new_states`
 /// have n `state_length` numbers, each variable an array; a state of zeros is that of the body as it was made, and states of elastic laws are
 /// copied. `stresses` gets as many numbers as `after` has. Outputs that overlap inputs or one another are refused.
 ///

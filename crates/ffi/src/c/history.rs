@@ -168,8 +168,9 @@ pub unsafe extern "C" fn piola_history_initial_states(
 /// `stress` is a `PiolaStress`, `tangent` a `PiolaTangent`, `voigt` a `PiolaVoigt`, `layout` a `PiolaLayout`. The deformation gradients
 /// `from` and `to`, 9 n numbers by rows, are those at the start and the end; the increment takes `dt` s. `tolerance` bounds the estimated
 /// error of the internal variables; with 0 the increment is one implicit step. `before` and `after` have n states. Outputs that overlap
-/// inputs or one another are refused: `after` is other memory than `before`. `tangents` may be a null pointer with the length 0: no tangent is then computed; otherwise it gets 81 or 36 numbers a point, by rows, which lack the
-/// major symmetry in general.
+/// inputs or one another are refused: `after` is other memory than `before`.
+/// `tangents` gets 81 or 36 numbers a point, by rows, without major symmetry in general. With a null pointer and the length 0 no tangent is
+/// computed.
 ///
 /// After `PIOLA_STATUS_BAD_POINTS` stresses and tangents of the points that failed are NaN and their new states those before; the message
 /// names the first of them, and the share of the increment up to which an update was found. All others are advanced.

@@ -160,6 +160,11 @@ fn elastic_laws_keep_the_state() {
     let mut new = [0.0; 2];
     vumat(&law, [3, 1], stretching, (&state, &mut new), &mut stress[..4]).unwrap();
     assert_eq!(new, state);
+    // They belong to the user's other subroutines: what an elastic law does not use is not looked at.
+    let stretching = Stretching { before: &[f64::NAN; 4], temperatures: &[f64::NAN], ..stretching };
+    vumat(&law, [3, 1], stretching, (&[f64::NAN, 1.0], &mut new), &mut stress[..4]).unwrap();
+    assert!(new[0].is_nan() && new[1].to_bits() == 1.0_f64.to_bits());
+    assert!(stress[..4].iter().all(|x| x.is_finite()));
     let error = vumat(&law, [3, 1], stretching, (&state, &mut new[..1]), &mut stress[..4]).unwrap_err();
     assert!(matches!(error, FfiError::WrongLength { quantity: "stateNew", expected: 2, found: 1 }), "{error}");
 }

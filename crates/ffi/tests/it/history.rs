@@ -367,6 +367,8 @@ fn files_of_materials_with_unknown_keys_are_refused() {
     let elastic = file("elastic", spring);
     assert_eq!(*material(&elastic, &[]).unwrap(), *material("hencky-lame", &[2.0, 3.0]).unwrap());
     assert_eq!((material_state_length(&elastic).unwrap(), material_state_length("hencky-lame").unwrap()), (0, 0));
+    let error = material_state_length("hencky-nonsense").unwrap_err();
+    assert!(error.to_string().contains("nonsense"), "{error}");
     let grown = file("grown", &format!(r#"{{"law": "given_growth", "elastic": {spring}}}"#));
     assert_eq!(*material(&grown, &[]).unwrap(), *material("given_growth-hencky-lame", &[2.0, 3.0]).unwrap());
     std::fs::remove_dir_all(&folder).unwrap();

@@ -5,6 +5,7 @@ use core::str::FromStr;
 
 use piola_laws::rubber::{self, AnyRubber, RubberShape};
 use piola_numerics::Real;
+use piola_numerics::internal::outlined;
 use piola_solids::isochoric::{self, RivlinTerm};
 use piola_solids::{
     AnyIsochoric, AnyVolumetric, Compressible, IncompressibleOgden, IncompressibleSolid, IsochoricOgden, OgdenTerm,
@@ -263,13 +264,6 @@ impl From<AnyModel> for String {
     }
 }
 
-/// A law in a function of its own. In numbers with derivatives each law has hundreds of loops; the compiler takes ten times as long for the loops of
-/// all laws in one function.
-#[inline(never)]
-fn apart<T>(law: impl FnOnce() -> T) -> T {
-    law()
-}
-
 impl Model for AnyModel {
     fn name(&self) -> String {
         self.to_string()
@@ -325,38 +319,39 @@ impl Model for AnyModel {
             Self::NeoHookean => internal::neo_hookean(parameters[0], first),
             Self::MooneyRivlin => internal::mooney_rivlin([parameters[0], parameters[1]], first, second()),
             Self::Yeoh => internal::yeoh([parameters[0], parameters[1], parameters[2]], first),
-            Self::Gent => apart(|| internal::gent(parameters[0], parameters[1], first)),
-            Self::ArrudaBoyce => apart(|| internal::arruda_boyce(parameters[0], parameters[1], first)),
+            Self::Gent => outlined(|| internal::gent(parameters[0], parameters[1], first)),
+            Self::ArrudaBoyce => outlined(|| internal::arruda_boyce(parameters[0], parameters[1], first)),
             Self::Carroll => {
-                apart(|| rubber::internal::carroll([parameters[0], parameters[1], parameters[2]], first, second()))
+                outlined(|| rubber::internal::carroll([parameters[0], parameters[1], parameters[2]], first, second()))
             }
             Self::LopezPamies => {
                 let term = |at: usize| {
-                    apart(|| rubber::internal::lopez_pamies_term(parameters[at], parameters[at + 1], first))
+                    outlined(|| rubber::internal::lopez_pamies_term(parameters[at], parameters[at + 1], first))
                 };
                 term(0) + term(2)
             }
-            Self::VanDerWaals => apart(|| {
+            Self::VanDerWaals => outlined(|| {
                 let four = [parameters[0], parameters[1], parameters[2], parameters[3]];
                 rubber::internal::van_der_waals(four, first, second())
             }),
             Self::ExtendedTube => {
-                let [a, b, c] = stretches.map(|x| apart(|| rubber::internal::tube(parameters[2], parameters[3], x.ln())));
-                apart(|| rubber::internal::crosslinked_network(parameters[0], parameters[1], first)) + (a + b + c)
+                let [a, b, c] =
+                    stretches.map(|x| outlined(|| rubber::internal::tube(parameters[2], parameters[3], x.ln())));
+                outlined(|| rubber::internal::crosslinked_network(parameters[0], parameters[1], first)) + (a + b + c)
             }
             Self::Polynomial(series) => {
                 let second = second();
                 let mut energy = T::zero();
                 for (powers, factor) in series.powers().zip(parameters) {
-                    energy += apart(|| internal::rivlin_term(*factor, powers, first, second));
+                    energy += outlined(|| internal::rivlin_term(*factor, powers, first, second));
                 }
                 energy
             }
             Self::Ogden(_) => {
-                let logarithms = stretches.map(|x| apart(|| x.ln()));
+                let logarithms = stretches.map(|x| outlined(|| x.ln()));
                 let mut energy = T::zero();
                 for term in parameters.chunks_exact(2) {
-                    let [a, b, c] = logarithms.map(|x| apart(|| internal::ogden_term(term[0], term[1], x)));
+                    let [a, b, c] = logarithms.map(|x| outlined(|| internal::ogden_term(term[0], term[1], x)));
                     energy += a + b + c;
                 }
                 energy

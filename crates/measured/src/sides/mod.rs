@@ -41,7 +41,7 @@ use crate::fitting::{MOST_OF_CALCULIX, Program, lines, short_lines};
 pub struct SidesComparison {
     /// Each law with its fit, or why it has none.
     pub laws: Vec<(SidesModel, Result<SidesFit, FitError>)>,
-    /// Whether the caller stopped it: laws that were not fitted until then are left out, and the last has linear intervals.
+    /// Whether the caller stopped it. Laws not fitted by then are left out. A law whose intervals were being computed keeps linear ones.
     pub interrupted: bool,
 }
 

@@ -1,11 +1,12 @@
-//! Derivatives of forward dynamics, in time proportional to the square of the freedoms.
+//! Derivatives of forward dynamics.
 //!
 //! ```text
 //! ∂v̇/∂q = −M⁻¹ ∂τ/∂q        ∂v̇/∂v = −M⁻¹ ∂τ/∂v        ∂v̇/∂τ = M⁻¹        ∂τ of inverse dynamics at v̇
 //! ```
 //!
 //! M⁻¹ and its products come from the articulated inertias of the forward dynamics. Up to 128 freedoms M⁻¹ is found from the tips, and
-//! multiplies the other columns where these are not zero. Beyond, and for states in lanes, each column is solved along the tree.
+//! multiplies the other columns where these are not zero: up to some n³ operations. Beyond, and for states in lanes, each column is solved along
+//! the tree: n times the links.
 
 use piola_numerics::{Kernel, Mask, Real, dispatch};
 
@@ -147,7 +148,7 @@ pub(crate) fn differentiate_accelerations<T: Real>(
     }
     differentiate(tree, work, v, acceleration, by_q, by_v, None);
     gains_in_space(tree, work, false);
-    if is_plain::<T>() && n <= DENSE {
+    if const { is_plain::<T>() } && n <= DENSE {
         invert(tree, work, by_tau);
         multiply_columns(tree, &mut work.dense, [by_q, by_v]);
     } else {

@@ -123,6 +123,26 @@ fn second_derivatives_of_a_hessian_equal_those_of_nested_dual_numbers() {
     visit_all(&mut SameSecondDerivatives);
 }
 
+/// The first sixteen entries are written out, those beyond are a loop.
+#[test]
+fn gradients_of_any_length_equal_closed_forms() {
+    fn check<const N: usize>() {
+        let mut sum = Gradient::<f64, N>::constant(0.0);
+        for k in 0..N {
+            let x = Gradient::variable(k as f64 + 1.0, k);
+            sum += x * x;
+        }
+        let expected: [f64; N] = core::array::from_fn(|k| 2.0 * (k as f64 + 1.0));
+        assert_eq!(sum.partials, expected);
+    }
+    check::<0>();
+    check::<1>();
+    check::<15>();
+    check::<16>();
+    check::<17>();
+    check::<19>();
+}
+
 #[test]
 fn products_and_quotients_of_hessians_equal_closed_forms() {
     let x = Hessian::<f64, 2, 3>::variable(3.0, 0);
@@ -139,20 +159,40 @@ fn products_and_quotients_of_hessians_equal_closed_forms() {
     assert_eq!(x - x, Hessian::lit(0.0));
 }
 
-/// Far angles are reduced one after the other.
+/// Near angles are reduced side by side. One far angle sends all eight to the standard library.
 #[test]
 fn sines_and_cosines_of_eight_angles_equal_those_of_each() {
-    let angles = [0.0, -0.3, 1.5, 3.2, -7.1, 250.0, 1e4, -1e9];
-    let (sines, cosines) = f64::sin_cos_of_eight(angles);
-    let (expected_sines, expected_cosines) = (angles.map(f64::sin), angles.map(f64::cos));
-    let tol = Tol::ulps(4.0);
-    for k in 0..8 {
-        assert_close("sine", &[sines[k]], &[expected_sines[k]], tol);
-        assert_close("cosine", &[cosines[k]], &[expected_cosines[k]], tol);
+    let near = [-0.0, -0.3, 1.5, 3.2, -7.1, 250.0, 1e4, 2.6e7];
+    let far = [0.0, -0.3, 1.5, 3.2, -7.1, 250.0, 1e4, -1e9];
+    // 2 ulp are stated, and the standard library's values have one.
+    let tol = Tol::ulps(3.0);
+    for angles in [near, far] {
+        let (sines, cosines) = f64::sin_cos_of_eight(angles);
+        let (expected_sines, expected_cosines) = (angles.map(f64::sin), angles.map(f64::cos));
+        for k in 0..8 {
+            assert_close("sine", &[sines[k]], &[expected_sines[k]], tol);
+            assert_close("cosine", &[cosines[k]], &[expected_cosines[k]], tol);
+        }
+        let duals = <Dual<f64>>::sin_cos_of_eight(angles.map(Dual::variable));
+        for k in 0..8 {
+            assert_close("slope of the sine", &[duals.0[k].tangent], &[expected_cosines[k]], tol);
+            assert_close("slope of the cosine", &[duals.1[k].tangent], &[-expected_sines[k]], tol);
+        }
     }
-    let duals = <Dual<f64>>::sin_cos_of_eight(angles.map(Dual::variable));
+    assert!(f64::sin_cos_of_eight(near).0[0].is_sign_negative());
+    // In single precision: the angles are f32, and 2 ulp of f32 are 2.4e-7 of a value near one.
+    let single = near.map(|angle| angle as f32);
+    let (sines, cosines) = f32::sin_cos_of_eight(single);
     for k in 0..8 {
-        assert_close("slope of the sine", &[duals.0[k].tangent], &[expected_cosines[k]], tol);
-        assert_close("slope of the cosine", &[duals.1[k].tangent], &[-expected_sines[k]], tol);
+        let (sine, cosine) = f64::from(single[k]).sin_cos();
+        assert!((f64::from(sines[k]) - sine).abs() <= 2.4e-7 * sine.abs(), "{k}");
+        assert!((f64::from(cosines[k]) - cosine).abs() <= 2.4e-7 * cosine.abs(), "{k}");
+    }
+    // What is not a number stays alone.
+    let mut angles = near;
+    angles[3] = f64::NAN;
+    let (sines, cosines) = f64::sin_cos_of_eight(angles);
+    for k in 0..8 {
+        assert_eq!((sines[k].is_nan(), cosines[k].is_nan()), (k == 3, k == 3), "{k}");
     }
 }

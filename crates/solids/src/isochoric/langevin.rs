@@ -1,5 +1,6 @@
 //! The Langevin function and its inverse.
 
+use piola_numerics::internal::outlined;
 use piola_numerics::{Mask, Real};
 
 /// Arguments up to this size take the continued fraction.
@@ -32,15 +33,11 @@ pub fn langevin<T: Real>(beta: T) -> T {
 /// ℒ(β)/β and ℒ′(β).
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn ratio_and_slope<T: Real>(beta: T) -> (T, T) {
-    if T::ORDER == 0 { inlined(beta) } else { apart(beta) }
+    // In lanes it is inlined, for the instructions of its caller.
+    if const { T::ORDER == 0 || 1 < T::LANES } { inlined(beta) } else { outlined(|| inlined(beta)) }
 }
 
-/// With derivatives the fraction is long: it is compiled once for each scalar, not at each of the dozen calls of a law.
-#[inline(never)]
-fn apart<T: Real>(beta: T) -> (T, T) {
-    inlined(beta)
-}
-
+/// With derivatives the fraction is long: outlined, it is compiled once for each scalar, not at each of the dozen calls of a law.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn inlined<T: Real>(beta: T) -> (T, T) {
     let (one, two) = (T::one(), T::lit(2.0));

@@ -39,18 +39,25 @@ pub(super) fn critical(length: f64, freedom: f64, confidence: f64) -> f64 {
     high
 }
 
-/// Bands of smoothed curves are wider by this factor, because λ follows the rows too: of a straight curve, of two degrees of freedom, most. It
-/// was chosen with the fluids and flows of the tables of coverage.
+/// Factor on the width of bands of smoothed curves. λ is chosen from the same rows, which makes the curve scatter more, most of all a straight
+/// curve, of two degrees of freedom. The factor was chosen with the fluids and flows of the tables of coverage.
 pub(super) fn selected(freedom: f64) -> f64 {
     const MOST: f64 = 0.15;
-    /// Degrees of freedom from two to which the factor falls to one.
+    /// The factor reaches one at 2 + 8.5 degrees of freedom.
     const OVER: f64 = 8.5;
     1.0 + MOST * (1.0 - (freedom - 2.0) / OVER).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::critical;
+    use super::{critical, selected};
+
+    #[test]
+    fn the_factor_falls_from_straight_to_curved() {
+        for (freedom, factor) in [(1.0, 1.15), (2.0, 1.15), (6.25, 1.075), (10.5, 1.0), (40.0, 1.0)] {
+            assert!((selected(freedom) - factor).abs() < 1e-15, "{freedom}");
+        }
+    }
 
     #[test]
     fn a_path_without_length_has_the_quantile_of_student() {

@@ -17,9 +17,9 @@ use super::splines::{Derivatives, Splines};
 pub enum Criterion {
     /// It goes through every row: no noise above 10⁻⁵ was found or stated.
     Interpolation,
-    /// The smoothing parameter makes the generalised cross-validation least.
+    /// The smoothing parameter is 0.6 times the one at which the generalised cross-validation is least.
     GeneralisedCrossValidation,
-    /// The smoothing parameter makes the expected error least at the known noise.
+    /// The smoothing parameter is 0.6 times the one at which the expected error is least at the known noise.
     KnownNoise,
 }
 
@@ -35,7 +35,7 @@ pub struct Smoothing {
     pub parameter: f64,
     /// ν, the degrees of freedom of the curve.
     pub degrees_of_freedom: f64,
-    /// Whether λ was raised beyond the criterion so that the curve rises.
+    /// Whether λ was raised so that the curve rises.
     pub raised: bool,
 }
 
