@@ -152,13 +152,16 @@ pub(crate) struct Relatives {
     /// Empty beyond [`DENSE`].
     lists: Vec<[Vec<usize>; 2]>,
     pub(crate) eights: usize,
+    /// Whether each link but the last has one link beyond it.
+    pub(crate) is_chain: bool,
 }
 
 impl Relatives {
     pub(crate) fn of_links(links: &[Link], freedoms: usize) -> Self {
         let eights = freedoms.div_ceil(EIGHT);
+        let is_chain = links.iter().enumerate().all(|(i, link)| link.parent == i);
         if MOST < freedoms {
-            return Self { bits: Vec::new(), lists: Vec::new(), eights };
+            return Self { bits: Vec::new(), lists: Vec::new(), eights, is_chain };
         }
         let mut bits = vec![[0; 2]; links.len() * eights];
         for (i, link) in links.iter().enumerate().filter(|(_, link)| link.parent != 0) {
@@ -181,7 +184,7 @@ impl Relatives {
         };
         let fours = if freedoms <= DENSE { owners.chunks(FOUR) } else { [].chunks(FOUR) };
         let lists = fours.map(|four| [list(four, false), list(four, true)]).collect();
-        Self { bits, lists, eights }
+        Self { bits, lists, eights, is_chain }
     }
 
     /// The lists of four freedoms from one on.

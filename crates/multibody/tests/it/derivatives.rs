@@ -25,10 +25,11 @@ fn seeded(tree: &RigidTree, state: &State, by: usize, j: usize) -> [Vec<Dual<f64
     [q, v, a]
 }
 
-fn trees() -> [(&'static str, RigidTree); 8] {
+fn trees() -> [(&'static str, RigidTree); 9] {
     [
-        // Entries in eights, beyond 64 freedoms.
+        // Entries in eights: beyond 64 freedoms, and beyond 16 of a chain.
         ("bush", bush(54)),
+        ("chain of 21", chain(21)),
         ("ur5", ur5()),
         ("chain", chain(9)),
         ("branched", branched()),
