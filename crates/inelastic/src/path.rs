@@ -1,5 +1,7 @@
 //! An increment of the deformation: implicit steps, extrapolated; divided where the error or Newton's method asks for it.
 
+use core::iter::successors;
+
 use piola_tensor::internal::rows::Rows;
 
 use crate::newton::{Along, Iterations, between, implicit_step, values};
@@ -23,8 +25,11 @@ pub struct StepControl {
 }
 
 impl StepControl {
-    /// With an estimated error of the internal variables below `tolerance`, in each part of an increment. Parts begin and end where
-    /// [`Evolution::evolves`] changes, as at a yield point.
+    /// With an estimated error of the internal variables below `tolerance`, in each part of an increment.
+    ///
+    /// Parts begin where [`Evolution::evolves`] becomes true, as at a yield point. It is asked at eight places of a part: flow that begins
+    /// and ends between two of them is not seen. A part that begins with flow is shortened until its own beginning flows at all of them,
+    /// and at places ever closer to the beginning.
     ///
     /// # Errors
     /// [`InelasticError::NotFinite`], [`InelasticError::OutOfBounds`] unless 1e-14 ≤ tolerance.
@@ -176,8 +181,7 @@ impl<L, const S: usize> Increment<'_, L, S> {
         Err(Failure::Error { error, tolerance })
     }
 
-    /// Makes a part begin where the body begins to flow, and end where it still flows: the share at which it begins, perhaps with a smaller
-    /// width.
+    /// Makes a part begin where the body begins to flow, and flow all the way: the share at which it begins, perhaps with a smaller width.
     ///
     /// Steps in which nothing flows leave the state alone, so an implicit step from before the yield point has the same result as one from the
     /// yield point. Steps of several widths would agree on it, and their difference would tell nothing of its error.
@@ -187,7 +191,14 @@ impl<L, const S: usize> Increment<'_, L, S> {
     {
         let flows = |share: f64| self.law.evolves(state, &self.gradient(share), self.dt * (share - start));
         if flows(start + *width * BESIDE) {
-            while SHORTEST_FLOW < *width && !flows(start + *width) {
+            // A state of an extrapolated part may lie outside the yield surface by the tolerance: ask inside the part, too, and ever
+            // closer to its beginning, from where a body unloads.
+            let flows_through = |width: f64| {
+                let near = successors(Some(0.5 * width / SAMPLES as f64), |share| Some(0.5 * share));
+                let even = (1..=SAMPLES).map(|k| width * (k as f64 / SAMPLES as f64));
+                even.chain(near.take_while(|share| SHORTEST_FLOW < *share)).all(|share| flows(start + share))
+            };
+            while SHORTEST_FLOW < *width && !flows_through(*width) {
                 *width *= 0.5;
             }
             return start;
