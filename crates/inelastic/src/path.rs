@@ -31,6 +31,10 @@ impl StepControl {
     /// and ends between two of them is not seen. A part that begins with flow is shortened until its own beginning flows at all of them,
     /// and at places ever closer to the beginning.
     ///
+    /// # Accuracy
+    /// Where viscous flow ends inside a part, the error can exceed the estimate. In 200 random unloadings of [`Kinematic`](crate::Kinematic)
+    /// with a tolerance of 1e-10, six errors lay between 1e-8 and 1e-7.
+    ///
     /// # Errors
     /// [`InelasticError::NotFinite`], [`InelasticError::OutOfBounds`] unless 1e-14 ≤ tolerance.
     pub fn new(tolerance: f64) -> Result<Self, InelasticError> {
@@ -226,7 +230,8 @@ impl<L, const S: usize> Increment<'_, L, S> {
             if X != 0 && self.control.tolerance.is_some() && alignments < MOST_ALIGNMENTS {
                 let before = width;
                 let share = self.aligned::<X>(&values(&reached.state), reached.share, &mut width);
-                alignments += usize::from(reached.share < share || width < before);
+                // A shortening that does not reach the shortest width ends by itself.
+                alignments += usize::from(reached.share < share || (width < before && width <= SHORTEST_FLOW));
                 if reached.share < share {
                     reached.share = share;
                     continue;
@@ -266,7 +271,8 @@ const BESIDE: f64 = 1e-12;
 const SHORTEST_FLOW: f64 = 1e-7;
 /// Shares of a part at which the body is asked whether it flows.
 const SAMPLES: usize = 8;
-/// How often flow may begin or end in an increment. A load that neither loads nor unloads a flowing body begins and ends it by rounding.
+/// How often flow may begin, or end within the shortest part, in an increment. A load that neither loads nor unloads a flowing body begins
+/// and ends it by rounding.
 const MOST_ALIGNMENTS: usize = 8;
 /// Halvings that find the beginning of flow to rounding.
 const HALVINGS: usize = 50;
