@@ -155,6 +155,22 @@ impl<L: Evolution<S, X>, const S: usize, const X: usize> Evolution<S, X> for Beg
     }
 }
 
+/// As [`Evolution::evolves`] asks of a law, without rounding.
+#[test]
+fn states_after_unknowns_of_zero_are_those_before() -> Fallible {
+    fn check<L: Evolution<S, X>, const S: usize, const X: usize>(what: &str, law: &L) -> Fallible {
+        let mut point = InelasticPoint::new(law);
+        for to in path(62, 6) {
+            let before = point.advance(&to, 0.25, &StepControl::one_step())?.state;
+            let after = law.updated(&before, &rows_of(to.matrix()), &[0.0; X], 0.25);
+            assert_close(what, &after, &before, Tol::ulps(0.0));
+        }
+        Ok(())
+    }
+    check("viscoplastic", &viscoplastic(0.5)?)?;
+    check("kinematic", &kinematic(0.0)?)
+}
+
 /// The checker's observers spin while the body deforms: with one step for each of its times the law sees only their places.
 #[test]
 fn the_checker_of_histories_finds_no_dependence_on_the_observer() -> Fallible {
