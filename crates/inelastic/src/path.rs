@@ -4,7 +4,7 @@ use core::iter::successors;
 
 use piola_tensor::internal::rows::Rows;
 
-use crate::newton::{Along, Iterations, between, implicit_step, values};
+use crate::newton::{IncrementScalar, Iterations, between, implicit_step, values};
 use crate::{Evolution, InelasticError};
 
 /// The most widths of steps that are extrapolated: 1, ½, ⅓, … of the increment. Seven multiply rounding by a thousand, ten by fifty
@@ -115,7 +115,7 @@ pub(crate) struct Increment<'a, L, const S: usize> {
 
 impl<L, const S: usize> Increment<'_, L, S> {
     /// `count` equal implicit steps over a part of the increment.
-    fn steps<T: Along, const X: usize>(
+    fn steps<T: IncrementScalar, const X: usize>(
         &self,
         from: &Reached<T, S>,
         width: f64,
@@ -144,7 +144,7 @@ impl<L, const S: usize> Increment<'_, L, S> {
     /// ```text
     /// Tⱼₖ = Tⱼ,ₖ₋₁ + (Tⱼ,ₖ₋₁ − Tⱼ₋₁,ₖ₋₁)/(nⱼ/nⱼ₋ₖ₊₁ − 1)
     /// ```
-    fn part<T: Along, const X: usize>(
+    fn part<T: IncrementScalar, const X: usize>(
         &self,
         from: &Reached<T, S>,
         width: f64,
@@ -218,7 +218,10 @@ impl<L, const S: usize> Increment<'_, L, S> {
     }
 
     /// The state at the end; where that is not reached, the last admissible state and why it is the last.
-    pub(crate) fn run<T: Along, const X: usize>(&self, state: &[f64; S]) -> (Reached<T, S>, Effort, Option<Failure>)
+    pub(crate) fn run<T: IncrementScalar, const X: usize>(
+        &self,
+        state: &[f64; S],
+    ) -> (Reached<T, S>, Effort, Option<Failure>)
     where
         L: Evolution<S, X>,
     {
