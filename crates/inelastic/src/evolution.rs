@@ -58,7 +58,8 @@ pub trait Evolution<const S: usize, const X: usize> {
     #[must_use]
     fn initial(&self) -> [f64; S];
 
-    /// False where nothing evolves in the step, as below a yield stress: the unknowns are then zero.
+    /// False where the state does not change in the step, as below a yield stress. The unknowns are then zero and
+    /// [`updated`](Self::updated) must return `from`: integration with a tolerance skips such a stretch of an increment.
     #[must_use]
     fn evolves(&self, _from: &[f64; S], _gradient: &Rows<f64>, _dt: f64) -> bool {
         true

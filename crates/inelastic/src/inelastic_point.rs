@@ -11,7 +11,7 @@ use piola_tensor::FourthOrder;
 use piola_tensor::internal::rows::Rows;
 
 use crate::error::{check_bound, check_finite};
-use crate::newton::{Along, Varied, between, stress, values, values_of_rows};
+use crate::newton::{IncrementScalar, Varied, between, stress, values, values_of_rows};
 use crate::path::{Effort, Increment, Reached, StepControl};
 use crate::{Evolution, InelasticError};
 
@@ -168,14 +168,20 @@ impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> InelasticPoint<'a, 
     }
 
     /// Takes the place to which an increment has come.
-    fn stand_at<T: Along>(&mut self, reached: &Reached<T, S>, end: &Rows<f64>, dt: f64, control: &StepControl) {
+    fn stand_at<T: IncrementScalar>(
+        &mut self,
+        reached: &Reached<T, S>,
+        end: &Rows<f64>,
+        dt: f64,
+        control: &StepControl,
+    ) {
         self.state = values(&reached.state);
         self.gradient = self.increment(end, dt, control).gradient(reached.share);
     }
 
     /// Where the increment stands, and the stress there with what it took; why it ended early.
     #[expect(clippy::type_complexity, reason = "where it stands also after a failure")]
-    fn run<T: Along>(
+    fn run<T: IncrementScalar>(
         &self,
         end: &Rows<f64>,
         dt: f64,

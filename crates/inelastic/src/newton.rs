@@ -13,8 +13,8 @@ pub(crate) type Varied = Gradient<f64, 9>;
 /// Iterations after which an update is given up.
 const MOST_ITERATIONS: usize = 40;
 
-/// The numbers of an increment: with derivatives where the tangent is wanted, plain ones where the stress alone is.
-pub(crate) trait Along: Real {
+/// Scalar of an increment: with derivatives by F where the tangent is wanted, `f64` for the stress alone.
+pub(crate) trait IncrementScalar: Real {
     /// The entry at a place of F at a share of the increment, where it has this value.
     fn entry(value: f64, place: usize, share: f64) -> Self;
 
@@ -28,7 +28,7 @@ pub(crate) trait Along: Real {
     ) -> Option<[Self; X]>;
 }
 
-impl Along for f64 {
+impl IncrementScalar for f64 {
     fn entry(value: f64, _place: usize, _share: f64) -> Self {
         value
     }
@@ -48,7 +48,7 @@ impl Along for f64 {
     }
 }
 
-impl Along for Varied {
+impl IncrementScalar for Varied {
     fn entry(value: f64, place: usize, share: f64) -> Self {
         let mut entry = Self::variable(value, place);
         entry.partials[place] = share;
@@ -91,11 +91,11 @@ fn size(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |size: f64, x| if x.is_nan() || size < x.abs() { x.abs() } else { size })
 }
 
-pub(crate) fn values<T: Along, const K: usize>(varied: &[T; K]) -> [f64; K] {
+pub(crate) fn values<T: IncrementScalar, const K: usize>(varied: &[T; K]) -> [f64; K] {
     varied.map(|x| x.primal(0))
 }
 
-pub(crate) fn values_of_rows<T: Along>(varied: &Rows<T>) -> Rows<f64> {
+pub(crate) fn values_of_rows<T: IncrementScalar>(varied: &Rows<T>) -> Rows<f64> {
     varied.map(|row| row.map(|x| x.primal(0)))
 }
 
@@ -183,7 +183,7 @@ fn solution<L: Evolution<S, X>, const S: usize, const X: usize>(
 
 /// The state at the end of one implicit step; the iterations also where there is no such state.
 #[inline(never)]
-pub(crate) fn implicit_step<T: Along, L: Evolution<S, X>, const S: usize, const X: usize>(
+pub(crate) fn implicit_step<T: IncrementScalar, L: Evolution<S, X>, const S: usize, const X: usize>(
     law: &L,
     from: &[T; S],
     gradient: &Rows<T>,
@@ -209,7 +209,7 @@ const SMALLEST_SHARE: f64 = 1e-4;
 
 /// P of the deformation and the state, with derivatives where both have them.
 #[inline(never)]
-pub(crate) fn stress<T: Along, L: Evolution<S, X>, const S: usize, const X: usize>(
+pub(crate) fn stress<T: IncrementScalar, L: Evolution<S, X>, const S: usize, const X: usize>(
     law: &L,
     gradient: &Rows<T>,
     state: &[T; S],
@@ -218,7 +218,7 @@ pub(crate) fn stress<T: Along, L: Evolution<S, X>, const S: usize, const X: usiz
 }
 
 /// F₀ + s (F₁ − F₀), with derivatives by F₁ where its numbers have them.
-pub(crate) fn between<T: Along>(start: &Rows<f64>, end: &Rows<f64>, share: f64) -> Rows<T> {
+pub(crate) fn between<T: IncrementScalar>(start: &Rows<f64>, end: &Rows<f64>, share: f64) -> Rows<T> {
     let mut gradient = [[T::zero(); 3]; 3];
     for (i, row) in gradient.iter_mut().enumerate() {
         for (j, entry) in row.iter_mut().enumerate() {

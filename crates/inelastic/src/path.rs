@@ -1,8 +1,10 @@
 //! An increment of the deformation: implicit steps, extrapolated; divided where the error or Newton's method asks for it.
 
+use core::iter::successors;
+
 use piola_tensor::internal::rows::Rows;
 
-use crate::newton::{Along, Iterations, between, implicit_step, values};
+use crate::newton::{IncrementScalar, Iterations, between, implicit_step, values};
 use crate::{Evolution, InelasticError};
 
 /// The most widths of steps that are extrapolated: 1, ½, ⅓, … of the increment. Seven multiply rounding by a thousand, ten by fifty
@@ -23,8 +25,15 @@ pub struct StepControl {
 }
 
 impl StepControl {
-    /// With an estimated error of the internal variables below `tolerance`, in each part of an increment. Parts begin and end where
-    /// [`Evolution::evolves`] changes, as at a yield point.
+    /// With an estimated error of the internal variables below `tolerance`, in each part of an increment.
+    ///
+    /// Parts begin where [`Evolution::evolves`] becomes true, as at a yield point. It is asked at eight places of a part: flow that begins
+    /// and ends between two of them is not seen. A part that begins with flow is shortened until its own beginning flows at all of them,
+    /// and at places ever closer to the beginning.
+    ///
+    /// # Accuracy
+    /// Where viscous flow ends inside a part, the error can exceed the estimate. In 200 random unloadings of [`Kinematic`](crate::Kinematic)
+    /// six errors were above a hundred times the tolerance: up to 1e-7 with a tolerance of 1e-10, and up to 4.1e-4 with 1e-6.
     ///
     /// # Errors
     /// [`InelasticError::NotFinite`], [`InelasticError::OutOfBounds`] unless 1e-14 ≤ tolerance.
@@ -106,7 +115,7 @@ pub(crate) struct Increment<'a, L, const S: usize> {
 
 impl<L, const S: usize> Increment<'_, L, S> {
     /// `count` equal implicit steps over a part of the increment.
-    fn steps<T: Along, const X: usize>(
+    fn steps<T: IncrementScalar, const X: usize>(
         &self,
         from: &Reached<T, S>,
         width: f64,
@@ -135,7 +144,7 @@ impl<L, const S: usize> Increment<'_, L, S> {
     /// ```text
     /// Tⱼₖ = Tⱼ,ₖ₋₁ + (Tⱼ,ₖ₋₁ − Tⱼ₋₁,ₖ₋₁)/(nⱼ/nⱼ₋ₖ₊₁ − 1)
     /// ```
-    fn part<T: Along, const X: usize>(
+    fn part<T: IncrementScalar, const X: usize>(
         &self,
         from: &Reached<T, S>,
         width: f64,
@@ -176,8 +185,7 @@ impl<L, const S: usize> Increment<'_, L, S> {
         Err(Failure::Error { error, tolerance })
     }
 
-    /// Makes a part begin where the body begins to flow, and end where it still flows: the share at which it begins, perhaps with a smaller
-    /// width.
+    /// Makes a part begin where the body begins to flow, and flow all the way: the share at which it begins, perhaps with a smaller width.
     ///
     /// Steps in which nothing flows leave the state alone, so an implicit step from before the yield point has the same result as one from the
     /// yield point. Steps of several widths would agree on it, and their difference would tell nothing of its error.
@@ -187,7 +195,14 @@ impl<L, const S: usize> Increment<'_, L, S> {
     {
         let flows = |share: f64| self.law.evolves(state, &self.gradient(share), self.dt * (share - start));
         if flows(start + *width * BESIDE) {
-            while SHORTEST_FLOW < *width && !flows(start + *width) {
+            // A state of an extrapolated part may lie outside the yield surface by the tolerance: ask inside the part, too, and ever
+            // closer to its beginning, from where a body unloads.
+            let flows_through = |width: f64| {
+                let near = successors(Some(0.5 * width / SAMPLES as f64), |share| Some(0.5 * share));
+                let even = (1..=SAMPLES).map(|k| width * (k as f64 / SAMPLES as f64));
+                even.chain(near.take_while(|share| SHORTEST_FLOW < *share)).all(|share| flows(start + share))
+            };
+            while SHORTEST_FLOW < *width && !flows_through(*width) {
                 *width *= 0.5;
             }
             return start;
@@ -203,7 +218,10 @@ impl<L, const S: usize> Increment<'_, L, S> {
     }
 
     /// The state at the end; where that is not reached, the last admissible state and why it is the last.
-    pub(crate) fn run<T: Along, const X: usize>(&self, state: &[f64; S]) -> (Reached<T, S>, Effort, Option<Failure>)
+    pub(crate) fn run<T: IncrementScalar, const X: usize>(
+        &self,
+        state: &[f64; S],
+    ) -> (Reached<T, S>, Effort, Option<Failure>)
     where
         L: Evolution<S, X>,
     {
@@ -215,7 +233,8 @@ impl<L, const S: usize> Increment<'_, L, S> {
             if X != 0 && self.control.tolerance.is_some() && alignments < MOST_ALIGNMENTS {
                 let before = width;
                 let share = self.aligned::<X>(&values(&reached.state), reached.share, &mut width);
-                alignments += usize::from(reached.share < share || width < before);
+                // A shortening that does not reach the shortest width ends by itself.
+                alignments += usize::from(reached.share < share || (width < before && width <= SHORTEST_FLOW));
                 if reached.share < share {
                     reached.share = share;
                     continue;
@@ -255,7 +274,8 @@ const BESIDE: f64 = 1e-12;
 const SHORTEST_FLOW: f64 = 1e-7;
 /// Shares of a part at which the body is asked whether it flows.
 const SAMPLES: usize = 8;
-/// How often flow may begin or end in an increment. A load that neither loads nor unloads a flowing body begins and ends it by rounding.
+/// How often flow may begin, or end within the shortest part, in an increment. A load that neither loads nor unloads a flowing body begins
+/// and ends it by rounding.
 const MOST_ALIGNMENTS: usize = 8;
 /// Halvings that find the beginning of flow to rounding.
 const HALVINGS: usize = 50;

@@ -202,7 +202,7 @@ impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> OverHistory<'a, L, 
         let mut stress = Matrix3::zeros();
         for step in 1..=self.steps {
             let f = at(step)?;
-            stress = point.advance(&f, dt, &self.control)?.first_piola.cauchy(&f).0.matrix();
+            stress = point.advance_stress(&f, dt, &self.control)?.0.cauchy(&f).0.matrix();
         }
         Ok(stress)
     }

@@ -4,11 +4,10 @@ use core::error::Error;
 
 use nalgebra::{Matrix2, Matrix3, Vector2};
 use piola_continuum::DeformationGradient;
-use piola_inelastic::{Evolution, GivenGrowth, InelasticPoint, StepControl};
-use piola_solids::Hencky;
+use piola_inelastic::{Evolution, InelasticPoint, StepControl};
 use piola_testkit::{Tol, assert_close};
 
-use super::laws::{in_series, thermal};
+use super::laws::{grown, hot, in_series};
 use super::paths::{bergstrom_boyce, driven_growth, kinematic, mullins, reese_govindjee, viscoplastic};
 
 type Fallible = Result<(), Box<dyn Error>>;
@@ -114,7 +113,7 @@ fn newtons_method_for_free_sides_converges_quadratically_with_the_consistent_tan
     check_quadratic("driven growth", &residuals(&driven_growth()?)?);
     check_quadratic("Mullins", &residuals(&mullins()?)?);
     check_quadratic("in series", &residuals(&in_series()?)?);
-    check_quadratic("thermal", &residuals(&thermal()?)?);
-    check_quadratic("given growth", &residuals(&GivenGrowth::new(Hencky::new(3.0, 2.0)?))?);
+    check_quadratic("thermal", &residuals(&hot()?)?);
+    check_quadratic("given growth", &residuals(&grown()?)?);
     Ok(())
 }
