@@ -211,7 +211,7 @@ impl<E> Bad<E> {
         Self { count: self.count + later.count, first: self.first.or(later.first) }
     }
 
-    /// An error where there is such a point, of their number, the first and its error.
+    /// If points have failed, the error says how many of them, which was the first, and why it failed.
     pub(crate) fn finish(self, error: impl FnOnce(usize, usize, E) -> FfiError) -> Result<(), FfiError> {
         let Self { count, first } = self;
         first.map_or(Ok(()), |(index, reason)| Err(error(count, index, reason)))

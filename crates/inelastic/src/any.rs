@@ -171,7 +171,7 @@ macro_rules! laws {
                 }
             }
 
-            /// As [`advance`](Self::advance), for P alone, Pa, and what it took: no derivative of the state or of the stress is computed.
+            /// As [`advance`](Self::advance), but returns P, Pa, and the effort alone. It computes no derivatives of the state or of the stress.
             ///
             /// # Errors
             /// Those of [`advance`](Self::advance).

@@ -108,8 +108,8 @@ impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> InelasticPoint<'a, 
         result.map(|(stress, effort)| advanced(&reached, &stress, effort))
     }
 
-    /// Leads the point to a deformation in the time `dt`, s, as [`advance`](Self::advance) does, for P alone, Pa: no derivative of the state
-    /// or of the stress is computed.
+    /// Leads the point to a deformation in the time `dt`, s, as [`advance`](Self::advance) does, but returns P, Pa, and the effort
+    /// alone. It computes no derivatives of the state or of the stress.
     ///
     /// # Errors
     /// Those of [`advance`](Self::advance).
@@ -179,7 +179,8 @@ impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> InelasticPoint<'a, 
         self.gradient = self.increment(end, dt, control).gradient(reached.share);
     }
 
-    /// Where the increment stands, and the stress there with what it took; why it ended early.
+    /// Returns the share and the state that the increment has reached. With them it returns the stress there and the effort, or the error that
+    /// ended the increment early.
     #[expect(clippy::type_complexity, reason = "where it stands also after a failure")]
     fn run<T: IncrementScalar>(
         &self,

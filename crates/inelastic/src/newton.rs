@@ -181,7 +181,7 @@ fn solution<L: Evolution<S, X>, const S: usize, const X: usize>(
     }
 }
 
-/// The state at the end of one implicit step; the iterations also where there is no such state.
+/// Takes one implicit step and returns the state at its end with the iterations. Where Newton's method fails it returns the iterations alone.
 #[inline(never)]
 pub(crate) fn implicit_step<T: IncrementScalar, L: Evolution<S, X>, const S: usize, const X: usize>(
     law: &L,

@@ -46,8 +46,8 @@ fn held(case: &Value, flow: &str, trials: u32) -> (u32, f64) {
     (held, rows.into_iter().map(ratio).fold(0.0, f64::max))
 }
 
-/// A hundred trials of every fluid, of which a coverage of 95 % holds 95 ± 2.2: three deviations are allowed. Of all 900 tables 92 to 98 % are
-/// held. The half width is at most three times the 95th percentile of the error; of 100 tables this ratio scatters by a tenth. The test of
+/// Each fluid has a hundred noisy tables. A coverage of 95 % holds 95 ± 2.2 of them; three standard deviations are allowed. Of all 900 tables
+/// the bands must hold 92 to 98 %. The half width is at most three times the 95th percentile of the error. From 100 tables this ratio scatters by a tenth. The test of
 /// each flow is apart, so that they run beside one another.
 fn every_fluid(flow: &str) {
     let mut all = 0;
