@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 /// ```
 /// use piola_charts::Lattice;
 /// let lattice = Lattice::of([0.0; 2], [2.0; 2], [3, 3], |[x, y]| x + y);
-/// assert_eq!(lattice.at([0.5, 1.0]), Some(1.5));
+/// assert_eq!(lattice.range(), (0.0, 4.0));
 /// assert_eq!(lattice.region(3.0).len(), 1);
 /// ```
 #[derive(Debug, Clone)]
@@ -51,23 +51,6 @@ impl Lattice {
     pub fn range(&self) -> (f64, f64) {
         let finite = self.values.iter().copied().filter(|value| value.is_finite());
         finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
-    }
-
-    /// Bilinear interpolation; none outside, or beside a value that is not finite.
-    #[must_use]
-    pub fn at(&self, x: [f64; 2]) -> Option<f64> {
-        let t: [f64; 2] = core::array::from_fn(|k| (x[k] - self.origin[k]) / self.spacing[k]);
-        let inside = |k: usize| 0.0 <= t[k] && t[k] <= (self.points[k] - 1) as f64;
-        if !(inside(0) && inside(1)) {
-            return None;
-        }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between zero and the points")]
-        let cell: [usize; 2] = core::array::from_fn(|k| (t[k] as usize).min(self.points[k] - 2));
-        let [a, b]: [f64; 2] = core::array::from_fn(|k| t[k] - cell[k] as f64);
-        let value = |i: usize, j: usize| self.values[cell[0] + i + (cell[1] + j) * self.points[0]];
-        let found =
-            (1.0 - b) * ((1.0 - a) * value(0, 0) + a * value(1, 0)) + b * ((1.0 - a) * value(0, 1) + a * value(1, 1));
-        found.is_finite().then_some(found)
     }
 
     /// The value at a point of the padded grid; less than any threshold outside, and where it is not finite.

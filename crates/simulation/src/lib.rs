@@ -1,11 +1,10 @@
-//! Motions of systems made of data, and wave fronts in layered media.
+//! Motions of systems made of data.
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
 pub mod constraints;
 mod error;
 pub mod forces;
-pub mod fronts;
 pub mod joints;
 pub mod motion;
 mod outcome;

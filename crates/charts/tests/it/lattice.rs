@@ -1,4 +1,4 @@
-//! Values between the points of a grid, and the regions above a threshold.
+//! The regions of a grid above a threshold.
 
 use piola_charts::{Canvas, Lattice, Window, colour, figure};
 
@@ -12,19 +12,6 @@ fn twice_area(polygon: &[[f64; 2]]) -> f64 {
         (a - u) * (d - v) - (b - v) * (c - u)
     });
     triangles.sum()
-}
-
-/// A bilinear function is its own interpolation.
-#[test]
-fn values_between_the_points_are_bilinear() {
-    let value = |[x, y]: [f64; 2]| 1.0 + 2.0 * x - 3.0 * y + 4.0 * x * y;
-    let lattice = Lattice::of([-1.0, 2.0], [2.0, 4.0], [4, 5], value);
-    for x in [[-1.0, 2.0], [-0.75, 2.125], [0.5, 3.25], [1.25, 2.75], [1.5, 3.875], [2.0, 4.0]] {
-        // Sums of a few parts, each below 64.
-        let found = lattice.at(x).unwrap();
-        assert!((found - value(x)).abs() < 64.0 * f64::EPSILON, "{x:?}: {found}");
-    }
-    assert_eq!([[-1.25, 3.0], [2.25, 3.0], [0.0, 1.75], [0.0, 4.25]].map(|x| lattice.at(x)), [None; 4]);
 }
 
 /// x + y ≥ 1 on the rectangle from (−1, 0) to (2, 2), whose lower left corner it leaves out: the line goes from (1, 0) to (−1, 2).

@@ -109,7 +109,7 @@ impl Checkpoints {
     }
 
     /// Writes a checkpoint into the folder.
-    pub(crate) fn write(&mut self, checkpoint: &impl Serialize) {
+    fn write(&mut self, checkpoint: &impl Serialize) {
         /// A checkpoint holds the whole record: of a long one more than a part of the time would go into writing.
         const SHARE: u32 = 20;
         let begun = Instant::now();
@@ -140,8 +140,9 @@ impl Checkpoints {
     }
 }
 
-impl CheckpointKeeper for Checkpoints {
-    fn is_due(&mut self) -> bool {
+impl Checkpoints {
+    /// Whether the pause is over.
+    fn pause_is_over(&mut self) -> bool {
         /// Calls that are passed over where they come fast: of steps that take a microsecond a look at the clock at each would be felt.
         const STRIDE: u32 = 8;
         /// Calls come fast if less than this part of the pause goes by between two looks.
@@ -155,8 +156,25 @@ impl CheckpointKeeper for Checkpoints {
         self.seen = gone;
         self.pause <= gone
     }
+}
+
+impl CheckpointKeeper for Checkpoints {
+    fn is_due(&mut self) -> bool {
+        self.pause_is_over()
+    }
 
     fn keep(&mut self, checkpoint: &MotionCheckpoint) {
+        self.write(checkpoint);
+    }
+}
+
+#[cfg(feature = "robots")]
+impl piola_studies::robot::RobotCheckpointKeeper for Checkpoints {
+    fn is_due(&mut self) -> bool {
+        self.pause_is_over()
+    }
+
+    fn keep(&mut self, checkpoint: &piola_studies::robot::RobotCheckpoint) {
         self.write(checkpoint);
     }
 }

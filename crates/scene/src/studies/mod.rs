@@ -2,7 +2,7 @@
 //!
 //! | table | study | with |
 //! |---|---|---|
-//! | `[wavefront]` | [`Wavefront`]: fronts, rays and caustics in a medium | [`piola_simulation::fronts`] |
+//! | `[wavefront]` | [`Wavefront`]: fronts, rays and caustics in a medium | [`piola_studies`] |
 //! | `[room]` | [`Room`]: first arrival of a signal in a room | [`piola_characteristics`] |
 //! | `[balloon]` | `Balloon`: an inflated spherical shell | `piola_solutions` |
 //! | `[torsion]` | `TwistedRod`: a twisted rod or tube, with and without axial force | `piola_solutions` |
@@ -33,7 +33,6 @@ pub mod laminated_tube;
 mod law;
 #[cfg(feature = "solutions")]
 mod limits;
-mod observer;
 #[cfg(any(feature = "solutions", feature = "spectral", feature = "robots"))]
 #[cfg_attr(not(any(feature = "solutions", feature = "spectral")), expect(dead_code, reason = "robots need less of it"))]
 mod panel;
@@ -42,6 +41,7 @@ mod plan;
 pub mod robot;
 pub mod room;
 mod run;
+mod samples;
 #[cfg(feature = "solutions")]
 mod solid;
 #[cfg(feature = "solutions")]
@@ -56,11 +56,12 @@ pub use self::{
     bending::BentBlockStudy,
     dislocation::ScrewDislocations,
     laminated_tube::LayeredTube,
-    law::Law,
     solid::{SolidFindings, SolidStudy},
-    stresses::StressAt,
     torsion::TwistedRod,
 };
+
+#[cfg(feature = "solutions")]
+pub use piola_studies::{Law, StressAt};
 
 #[cfg(feature = "spectral")]
 pub use boxes::BoxStudy;

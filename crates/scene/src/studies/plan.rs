@@ -4,7 +4,7 @@ use core::fmt;
 
 use serde::Serialize;
 
-use super::{Study, Subject, wavefront};
+use super::{Study, Subject, room, wavefront};
 use crate::plan::Item;
 
 /// The plan of a study.
@@ -61,13 +61,13 @@ impl StudyPlan {
         };
         let (tables, figures) = match &study.subject {
             Subject::Wavefront(asked) => wavefront::plan(asked, &mut plan),
-            Subject::Room(room) => room.plan(&mut plan),
+            Subject::Room(asked) => room::plan(asked, &mut plan),
             #[cfg(feature = "solutions")]
             Subject::Solid(solid) => solid.plan(&mut plan),
             #[cfg(feature = "spectral")]
-            Subject::Box(fields) => fields.plan(&mut plan),
+            Subject::Box(fields) => super::boxes::plan(fields, &mut plan),
             #[cfg(feature = "robots")]
-            Subject::Robot(robot) => robot.plan(&mut plan),
+            Subject::Robot(robot) => super::robot::plan(robot, &mut plan),
         };
         for (wanted, files, what) in
             [(study.output.tables, tables, "tables"), (study.output.figures, figures, "figures")]

@@ -6,11 +6,11 @@ use std::time::Instant;
 
 use serde_json::{Map, Value, json};
 
-use super::observer::Observer;
 use super::{Study, StudyPlan, Subject, room, wavefront};
 use crate::SceneError;
 use crate::run::{Checkpoints, Outcome};
 use piola_charts::{Folder, Written};
+use piola_studies::Observer;
 
 /// The results of a study.
 #[derive(Debug, Clone)]
@@ -124,7 +124,8 @@ impl Before {
     fn of(study: &Study, checkpoints: &Checkpoints) -> Result<Self, SceneError> {
         #[cfg(feature = "robots")]
         if let Subject::Robot(robot) = &study.subject {
-            return Ok(robot.last(checkpoints)?.map_or(Self::Nothing, |last| Self::Robot(Box::new(last))));
+            let last = checkpoints.read(|last: &super::robot::RobotCheckpoint| last.check(robot))?;
+            return Ok(last.map_or(Self::Nothing, |last| Self::Robot(Box::new(last))));
         }
         let _ = (study, checkpoints);
         Ok(Self::Nothing)
@@ -170,7 +171,8 @@ fn begun(
         #[cfg(feature = "robots")]
         Subject::Robot(robot) => {
             let from = if let Before::Robot(checkpoint) = from { Some(*checkpoint) } else { None };
-            let (found, outcome) = robot.run(from, checkpoints, &mut observer);
+            let keeper = checkpoints.map(|keeper| keeper as &mut dyn piola_studies::robot::RobotCheckpointKeeper);
+            let (found, outcome) = robot.run(from, keeper, &mut observer);
             (Findings::Robot(Box::new(found)), outcome)
         }
     };
@@ -181,13 +183,13 @@ impl StudyRun {
     fn results(&self) -> Map<String, Value> {
         let results = match &self.findings {
             Findings::Wavefront(found) => wavefront::results(found),
-            Findings::Room(found) => found.results(),
+            Findings::Room(found) => room::results(found),
             #[cfg(feature = "solutions")]
             Findings::Solid(found) => found.results(),
             #[cfg(feature = "spectral")]
-            Findings::Box(found) => found.results(),
+            Findings::Box(found) => super::boxes::results(found),
             #[cfg(feature = "robots")]
-            Findings::Robot(found) => found.results(),
+            Findings::Robot(found) => super::robot::results(found),
         };
         if let Value::Object(map) = results { map } else { Map::new() }
     }
@@ -252,13 +254,13 @@ impl StudyRun {
         let file = |name: &str| match (&self.findings, &study.subject) {
             _ if name == "summary.json" => Some(self.summary(plan)),
             (Findings::Wavefront(found), Subject::Wavefront(asked)) => wavefront::file(found, asked, title, name),
-            (Findings::Room(found), Subject::Room(asked)) => found.file(asked, title, name),
+            (Findings::Room(found), Subject::Room(asked)) => room::file(found, asked, title, name),
             #[cfg(feature = "solutions")]
             (Findings::Solid(found), Subject::Solid(asked)) => found.file(asked, title, name),
             #[cfg(feature = "spectral")]
-            (Findings::Box(found), Subject::Box(_)) => found.file(title, name),
+            (Findings::Box(found), Subject::Box(_)) => super::boxes::file(found, title, name),
             #[cfg(feature = "robots")]
-            (Findings::Robot(found), Subject::Robot(asked)) => found.file(asked, title, name),
+            (Findings::Robot(found), Subject::Robot(asked)) => super::robot::file(found, asked, title, name),
             _ => None,
         };
         Written::of(folder, plan.files.iter().filter_map(|name| Some((name.as_str(), file(name)?))))

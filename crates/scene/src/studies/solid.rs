@@ -6,13 +6,12 @@ use super::balloon::{Balloon, BalloonCurve};
 use super::bending::{BendingCurve, BentBlockStudy};
 use super::dislocation::{BurgersCircuits, ScrewDislocations};
 use super::laminated_tube::{LayeredTube, TubeStresses};
-use super::observer::Observer;
 use super::torsion::{RodCurves, TwistedRod};
-use super::{StudyPlan, Subject};
+use super::{StudyPlan, Subject, balloon, bending, dislocation, laminated_tube, torsion};
 use crate::model::Builder;
-use crate::run::Outcome;
 use piola_document::Mistake;
 use piola_document::Record;
+use piola_studies::{Observer, Outcome};
 
 /// A study of a solid.
 #[derive(Debug, Clone)]
@@ -81,11 +80,11 @@ impl SolidStudy {
     /// Fills a plan; the tables and figures of this study.
     pub(super) fn plan(&self, plan: &mut StudyPlan) -> (&'static [&'static str], &'static [&'static str]) {
         match self {
-            Self::Balloon(study) => study.plan(plan),
-            Self::Torsion(study) => study.plan(plan),
-            Self::Bending(study) => study.plan(plan),
-            Self::Dislocation(study) => study.plan(plan),
-            Self::LaminatedTube(study) => study.plan(plan),
+            Self::Balloon(study) => balloon::plan(study, plan),
+            Self::Torsion(study) => torsion::plan(study, plan),
+            Self::Bending(study) => bending::plan(study, plan),
+            Self::Dislocation(study) => dislocation::plan(study, plan),
+            Self::LaminatedTube(study) => laminated_tube::plan(study, plan),
         }
     }
 
@@ -107,21 +106,23 @@ fn with<F>(make: fn(F) -> SolidFindings, (found, outcome): (F, Outcome)) -> (Sol
 impl SolidFindings {
     pub(super) fn results(&self) -> Value {
         match self {
-            Self::Balloon(found) => found.results(),
-            Self::Torsion(found) => found.results(),
-            Self::Bending(found) => found.results(),
-            Self::Dislocation(found) => found.results(),
-            Self::LaminatedTube(found) => found.results(),
+            Self::Balloon(found) => balloon::results(found),
+            Self::Torsion(found) => torsion::results(found),
+            Self::Bending(found) => bending::results(found),
+            Self::Dislocation(found) => dislocation::results(found),
+            Self::LaminatedTube(found) => laminated_tube::results(found),
         }
     }
 
     pub(super) fn file(&self, asked: &SolidStudy, title: &str, name: &str) -> Option<String> {
         match (self, asked) {
-            (Self::Balloon(found), SolidStudy::Balloon(asked)) => found.file(asked, title, name),
-            (Self::Torsion(found), SolidStudy::Torsion(asked)) => found.file(asked, title, name),
-            (Self::Bending(found), SolidStudy::Bending(asked)) => found.file(asked, title, name),
-            (Self::Dislocation(found), SolidStudy::Dislocation(asked)) => found.file(asked, title, name),
-            (Self::LaminatedTube(found), SolidStudy::LaminatedTube(asked)) => found.file(asked, title, name),
+            (Self::Balloon(found), SolidStudy::Balloon(asked)) => balloon::file(found, asked, title, name),
+            (Self::Torsion(found), SolidStudy::Torsion(asked)) => torsion::file(found, asked, title, name),
+            (Self::Bending(found), SolidStudy::Bending(asked)) => bending::file(found, asked, title, name),
+            (Self::Dislocation(found), SolidStudy::Dislocation(asked)) => dislocation::file(found, asked, title, name),
+            (Self::LaminatedTube(found), SolidStudy::LaminatedTube(asked)) => {
+                laminated_tube::file(found, asked, title, name)
+            }
             _ => None,
         }
     }

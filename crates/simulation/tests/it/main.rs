@@ -1,12 +1,10 @@
-//! Tests of simulated motions and wave fronts: closed forms, conservation, and the definitions of what is recorded.
+//! Tests of simulated motions: closed forms, conservation, and the definitions of what is recorded.
 
 mod checkpoints;
 mod constraints;
 mod drifts;
 mod forces;
-mod fronts;
 mod mechanism;
-mod media;
 mod orbits;
 mod phase;
 mod skipped;

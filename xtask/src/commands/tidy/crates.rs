@@ -60,10 +60,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("forward", &["measured", "solutions"]),
     // solutions and uniformity, by feature: studies of solids; spectral, by feature: fields on a box; multibody, by feature:
     // robots.
-    (
-        "scene",
-        &["schema", "charts", "simulation", "characteristics", "solutions", "uniformity", "spectral", "multibody"],
-    ),
+    ("studies", &["simulation", "characteristics", "solutions", "uniformity", "spectral", "multibody"]),
+    ("scene", &["schema", "charts", "studies"]),
     ("ensemble", &["scene"]),
     // charts: the folder of the results.
     // images, by feature: files of images, for the command `register` alone.
@@ -122,6 +120,11 @@ const BY_FEATURE: &[(&str, &str)] = &[
     ("scene", "solutions"),
     ("scene", "spectral"),
     ("scene", "uniformity"),
+    ("studies", "multibody"),
+    ("studies", "solids"),
+    ("studies", "solutions"),
+    ("studies", "spectral"),
+    ("studies", "uniformity"),
     ("cli", "images"),
     ("cli", "registration"),
     ("python", "scene"),

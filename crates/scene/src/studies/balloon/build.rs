@@ -1,6 +1,5 @@
 //! Balloons from checked records.
 
-use piola_solutions::LoadCurve;
 use piola_solutions::loads::Shell;
 
 use super::Balloon;
@@ -25,10 +24,9 @@ impl Builder<'_> {
         let Ok(shell) = Shell::new(inner, outer) else { return None };
         let balloon =
             Balloon { shell, law: law?, stretch, pressure: table.number("pressure"), points: table.count("points")? };
-        let curve = balloon.inflation();
-        if let Err(error) = stretch.iter().try_for_each(|x| curve.point(*x).map(|_| ())) {
-            let valid = if curve.point(1.0).is_ok() && 1.0 < stretch[1] {
-                let most = reach((1.0, stretch[1]), |x| curve.point(x).is_ok());
+        if let Err(error) = stretch.iter().try_for_each(|x| balloon.state(*x).map(|_| ())) {
+            let valid = if balloon.state(1.0).is_ok() && 1.0 < stretch[1] {
+                let most = reach((1.0, stretch[1]), |x| balloon.state(x).is_ok());
                 format!("stretches below {most:.6}")
             } else {
                 "stretches nearer to 1".to_string()
@@ -37,7 +35,7 @@ impl Builder<'_> {
         }
         if table.has("pressure") {
             let pressure = table.number("pressure")?;
-            if let Err(error) = curve.states_at(pressure, (stretch[0], stretch[1])) {
+            if let Err(error) = balloon.states_at(pressure) {
                 let limit = load_limit(&error, "Pa");
                 let place = table.place_of("pressure");
                 return self.refused(place, format!("no state carries the pressure: {error}"), limit);

@@ -2,7 +2,6 @@
 
 use core::f64::consts::TAU;
 
-use piola_solutions::LoadCurve;
 use piola_solutions::loads::Block;
 
 use super::BentBlockStudy;
@@ -30,21 +29,20 @@ impl Builder<'_> {
             moment: table.number("moment"),
             points: table.count("points")?,
         };
-        let bending = study.bending();
         let (least, most) = study.range();
-        if let Err(error) = bending.state(least) {
+        if let Err(error) = study.state(least) {
             return self.refused(
                 table.place_of("axial_stretch"),
                 format!("the block cannot be stretched so: {error}"),
                 "a stretch nearer to 1",
             );
         }
-        if let Err(error) = bending.state(most) {
-            let most = reach((least, most), |angle| bending.state(angle).is_ok());
+        if let Err(error) = study.state(most) {
+            let most = reach((least, most), |angle| study.state(angle).is_ok());
             return self.refused(table.place_of("angle"), error.to_string(), format!("an angle below {most:.6} rad"));
         }
         if let Some(moment) = study.moment
-            && let Err(error) = bending.states_at(moment, (least, most))
+            && let Err(error) = study.states_at(moment)
         {
             return self.refused(
                 table.place_of("moment"),

@@ -19,74 +19,78 @@ const PULLED: RGBColor = RGBColor(178, 24, 43);
 /// Points of an arc.
 const ARC: u32 = 40;
 
-impl BendingCurve {
-    pub(in crate::studies) fn file(&self, asked: &BentBlockStudy, title: &str, name: &str) -> Option<String> {
-        match name {
-            "bending.csv" => Some(self.table(asked)),
-            "stress.csv" => {
-                let names = self.shown.iter().map(|angle| format!("angle {angle:.6} rad"));
-                Some(stress_table(names.zip(self.stresses.iter().map(Vec::as_slice))))
-            }
-            "bending.svg" => Some(self.figure(asked, title)),
-            _ => None,
+/// A file of the plan by its name.
+pub(in crate::studies) fn file(
+    found: &BendingCurve,
+    asked: &BentBlockStudy,
+    title: &str,
+    name: &str,
+) -> Option<String> {
+    match name {
+        "bending.csv" => Some(table(found, asked)),
+        "stress.csv" => {
+            let names = found.shown.iter().map(|angle| format!("angle {angle:.6} rad"));
+            Some(stress_table(names.zip(found.stresses.iter().map(Vec::as_slice))))
         }
+        "bending.svg" => Some(drawing(found, asked, title)),
+        _ => None,
     }
+}
 
-    fn table(&self, asked: &BentBlockStudy) -> String {
-        let mut text =
-            String::from("angle_rad,moment_N_m,axial_force_N,inner_radius_m,outer_radius_m,small_strain_moment_N_m\n");
-        for (angle, state) in self.angles.iter().zip(&self.states) {
-            let [inner, outer] = state.radii;
-            let small = asked.small_strain_moment(*angle).map(|moment| format!("{moment:?}")).unwrap_or_default();
-            let _ = writeln!(text, "{angle:?},{:?},{:?},{inner:?},{outer:?},{small}", state.moment, state.axial_force);
-        }
-        text
+fn table(found: &BendingCurve, asked: &BentBlockStudy) -> String {
+    let mut text =
+        String::from("angle_rad,moment_N_m,axial_force_N,inner_radius_m,outer_radius_m,small_strain_moment_N_m\n");
+    for (angle, state) in found.angles.iter().zip(&found.states) {
+        let [inner, outer] = state.radii;
+        let small = asked.small_strain_moment(*angle).map(|moment| format!("{moment:?}")).unwrap_or_default();
+        let _ = writeln!(text, "{angle:?},{:?},{:?},{inner:?},{outer:?},{small}", state.moment, state.axial_force);
     }
+    text
+}
 
-    fn figure(&self, asked: &BentBlockStudy, title: &str) -> String {
-        let (unit_name, unit) = prefixed("N m", largest(self.states.iter().map(|state| state.moment)));
-        let degrees = |angle: &f64| angle.to_degrees();
-        let curve = self.angles.iter().zip(&self.states);
-        let mut moment = Panel::new("moment on the ends", "angle α (deg)", format!("M ({unit_name})")).curve(
-            "this block",
-            0,
-            core::iter::once((0.0, 0.0)).chain(curve.map(|(angle, state)| (degrees(angle), state.moment / unit))),
-        );
-        if asked.small_strain_moment(0.0).is_some() {
-            let small = |angle: &f64| asked.small_strain_moment(*angle).map(|m| (degrees(angle), m / unit));
-            // As far as it does not flatten the curve.
-            let highest = 1.3 * largest(self.states.iter().map(|state| state.moment)) / unit;
-            let line = self.angles.iter().filter_map(small).take_while(|(_, m)| *m < highest);
-            moment = moment.dashed("small strains", 11, line);
-        }
-        for (angle, state) in self.shown.iter().zip(&self.shown_states) {
-            moment = moment.mark("", 1, (degrees(angle), state.moment / unit), true);
-        }
-        let (metre, length) = prefixed("m", asked.block.thickness());
-        let first = self.stresses.first().map_or(&[][..], Vec::as_slice);
-        let (pascal, unit) = prefixed("Pa", largest(first.iter().flat_map(|at| at.stress)));
-        let mut through = Panel::new(
-            &self.shown.first().map_or_else(String::new, |angle| {
-                format!("stress through the thickness at {} deg", format_short(degrees(angle)))
-            }),
-            format!("X from the inner face ({metre})"),
-            format!("T ({pascal})"),
-        );
-        for (index, name) in ["T_rr", "T_θθ", "T_zz"].into_iter().enumerate() {
-            let points = first.iter().map(|at| (at.reference / length, at.stress[index] / unit));
-            through = through.curve(name, index + 1, points);
-        }
-        figure((1120, 900), title, &|area| {
-            let rows = area.split_evenly((2, 1));
-            let parts = rows[0].split_evenly((1, 2));
-            moment.draw(&parts[0])?;
-            through.draw(&parts[1])?;
-            match (self.shown.first(), self.shown_states.first()) {
-                (Some(angle), Some(state)) => draw_block(&rows[1], asked, *angle, state, first),
-                _ => Ok(()),
-            }
-        })
+fn drawing(found: &BendingCurve, asked: &BentBlockStudy, title: &str) -> String {
+    let (unit_name, unit) = prefixed("N m", largest(found.states.iter().map(|state| state.moment)));
+    let degrees = |angle: &f64| angle.to_degrees();
+    let curve = found.angles.iter().zip(&found.states);
+    let mut moment = Panel::new("moment on the ends", "angle α (deg)", format!("M ({unit_name})")).curve(
+        "this block",
+        0,
+        core::iter::once((0.0, 0.0)).chain(curve.map(|(angle, state)| (degrees(angle), state.moment / unit))),
+    );
+    if asked.small_strain_moment(0.0).is_some() {
+        let small = |angle: &f64| asked.small_strain_moment(*angle).map(|m| (degrees(angle), m / unit));
+        // As far as it does not flatten the curve.
+        let highest = 1.3 * largest(found.states.iter().map(|state| state.moment)) / unit;
+        let line = found.angles.iter().filter_map(small).take_while(|(_, m)| *m < highest);
+        moment = moment.dashed("small strains", 11, line);
     }
+    for (angle, state) in found.shown.iter().zip(&found.shown_states) {
+        moment = moment.mark("", 1, (degrees(angle), state.moment / unit), true);
+    }
+    let (metre, length) = prefixed("m", asked.block.thickness());
+    let first = found.stresses.first().map_or(&[][..], Vec::as_slice);
+    let (pascal, unit) = prefixed("Pa", largest(first.iter().flat_map(|at| at.stress)));
+    let mut through = Panel::new(
+        &found.shown.first().map_or_else(String::new, |angle| {
+            format!("stress through the thickness at {} deg", format_short(degrees(angle)))
+        }),
+        format!("X from the inner face ({metre})"),
+        format!("T ({pascal})"),
+    );
+    for (index, name) in ["T_rr", "T_θθ", "T_zz"].into_iter().enumerate() {
+        let points = first.iter().map(|at| (at.reference / length, at.stress[index] / unit));
+        through = through.curve(name, index + 1, points);
+    }
+    figure((1120, 900), title, &|area| {
+        let rows = area.split_evenly((2, 1));
+        let parts = rows[0].split_evenly((1, 2));
+        moment.draw(&parts[0])?;
+        through.draw(&parts[1])?;
+        match (found.shown.first(), found.shown_states.first()) {
+            (Some(angle), Some(state)) => draw_block(&rows[1], asked, *angle, state, first),
+            _ => Ok(()),
+        }
+    })
 }
 
 /// The block before and after, coloured by its hoop stress.

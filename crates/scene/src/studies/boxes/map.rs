@@ -1,10 +1,8 @@
-//! The middle slice of a grid, and its points that a table holds.
+//! The middle slice of a grid.
 
 use piola_charts::Lattice;
 use piola_spectral::BoxGrid;
-
-/// Rows of a table.
-pub(super) const MOST_ROWS: usize = 100_000;
+use piola_studies::internal::{middle_height, size_at};
 
 /// The rectangle itself, or the slice of a box in the middle of its third axis.
 pub(super) struct Slice<'g, const D: usize> {
@@ -15,8 +13,7 @@ pub(super) struct Slice<'g, const D: usize> {
 
 impl<'g, const D: usize> Slice<'g, D> {
     pub(super) fn of(grid: &'g BoxGrid<D>) -> Self {
-        let height = (D == 3).then(|| grid.position(grid.points().map(|points| points / 2))[D - 1]);
-        Self { grid, height }
+        Self { grid, height: middle_height(grid) }
     }
 
     /// The points along both axes.
@@ -51,26 +48,4 @@ impl<'g, const D: usize> Slice<'g, D> {
         let spacing = [self.grid.spacings()[0], self.grid.spacings()[1]];
         Lattice { origin: self.place(0, 0), spacing, points, values }
     }
-}
-
-/// |u| at a position of the lists.
-pub(super) fn size_at<const D: usize>(field: &[Vec<f64>; D], position: usize) -> f64 {
-    field.iter().map(|list| list[position].powi(2)).sum::<f64>().sqrt()
-}
-
-/// Each of so many points along each axis that a table of them has at most `MOST_ROWS` rows.
-pub(super) fn stride_of<const D: usize>(grid: &BoxGrid<D>) -> usize {
-    let rows = |stride: usize| grid.points().iter().map(|points| points.div_ceil(stride) as f64).product::<f64>();
-    let mut stride = 1;
-    while (MOST_ROWS as f64) < rows(stride) {
-        stride += 1;
-    }
-    stride
-}
-
-/// The positions of these points in the lists of samples, and their stride.
-pub(super) fn points_with_stride<const D: usize>(grid: &BoxGrid<D>) -> (Vec<usize>, usize) {
-    let stride = stride_of(grid);
-    let is_kept = |position: &usize| grid.indices(*position).iter().all(|index| index.is_multiple_of(stride));
-    ((0..grid.len()).filter(is_kept).collect(), stride)
 }

@@ -12,86 +12,89 @@ use piola_charts::{Area, Drawn, FINE, FONT, INK, colour, figure, format_short, p
 /// Cells of the lattice under the circuits, each way.
 const CELLS: i32 = 6;
 
-impl BurgersCircuits {
-    pub(in crate::studies) fn file(&self, asked: &ScrewDislocations, title: &str, name: &str) -> Option<String> {
-        match name {
-            "circuits.csv" => Some(self.circuits_table()),
-            "development.csv" => Some(self.development_table()),
-            "torsion.csv" => Some(self.torsion_table()),
-            "burgers.svg" => Some(self.figure(asked, title)),
-            _ => None,
-        }
+/// A file of the plan by its name.
+pub(in crate::studies) fn file(
+    found: &BurgersCircuits,
+    asked: &ScrewDislocations,
+    title: &str,
+    name: &str,
+) -> Option<String> {
+    match name {
+        "circuits.csv" => Some(circuits_table(found)),
+        "development.csv" => Some(development_table(found)),
+        "torsion.csv" => Some(torsion_table(found)),
+        "burgers.svg" => Some(drawing(found, asked, title)),
+        _ => None,
     }
+}
 
-    fn circuits_table(&self) -> String {
-        let mut text = String::from("radius_m,b_1_m,b_2_m,b_3_m,error_of_b_3_m,closed_form_m\n");
-        for circuit in &self.circuits {
-            let [first, second, third] = circuit.burgers;
-            let known = circuit.closed_form.map(|b| format!("{b:?}")).unwrap_or_default();
-            let _ =
-                writeln!(text, "{:?},{first:?},{second:?},{third:?},{:?},{known}", circuit.radius, circuit.error[2]);
-        }
-        text
+fn circuits_table(found: &BurgersCircuits) -> String {
+    let mut text = String::from("radius_m,b_1_m,b_2_m,b_3_m,error_of_b_3_m,closed_form_m\n");
+    for circuit in &found.circuits {
+        let [first, second, third] = circuit.burgers;
+        let known = circuit.closed_form.map(|b| format!("{b:?}")).unwrap_or_default();
+        let _ = writeln!(text, "{:?},{first:?},{second:?},{third:?},{:?},{known}", circuit.radius, circuit.error[2]);
     }
+    text
+}
 
-    fn development_table(&self) -> String {
-        let mut text = String::from("x_m,y_m,z_m,crystal_1_m,crystal_2_m,crystal_3_m\n");
-        for ([x, y, z], [first, second, third]) in self.in_body.iter().zip(&self.in_crystal) {
-            let _ = writeln!(text, "{x:?},{y:?},{z:?},{first:?},{second:?},{third:?}");
-        }
-        text
+fn development_table(found: &BurgersCircuits) -> String {
+    let mut text = String::from("x_m,y_m,z_m,crystal_1_m,crystal_2_m,crystal_3_m\n");
+    for ([x, y, z], [first, second, third]) in found.in_body.iter().zip(&found.in_crystal) {
+        let _ = writeln!(text, "{x:?},{y:?},{z:?},{first:?},{second:?},{third:?}");
     }
+    text
+}
 
-    fn torsion_table(&self) -> String {
-        let mut text = String::from("distance_m,screw_density_per_m,edge_density_per_m,largest_torsion_per_m\n");
-        for at in &self.torsion {
-            let _ = writeln!(text, "{:?},{:?},{:?},{:?}", at.distance, at.screw, at.edge, at.torsion);
-        }
-        text
+fn torsion_table(found: &BurgersCircuits) -> String {
+    let mut text = String::from("distance_m,screw_density_per_m,edge_density_per_m,largest_torsion_per_m\n");
+    for at in &found.torsion {
+        let _ = writeln!(text, "{:?},{:?},{:?},{:?}", at.distance, at.screw, at.edge, at.torsion);
     }
+    text
+}
 
-    fn figure(&self, asked: &ScrewDislocations, title: &str) -> String {
-        let reach = asked.reach();
-        let (metre, length) = prefixed("m", reach);
-        let (tall, height) = prefixed("m", largest(self.circuits.iter().map(|circuit| circuit.burgers[2])));
-        let mut burgers =
-            Panel::new("Burgers vectors of the circuits", format!("radius ({metre})"), format!("b₃ ({tall})"));
-        let known = (0..=80).filter_map(|i| {
-            let radius = reach * f64::from(i) / 80.0;
-            Some((radius / length, asked.closed_form(radius)? / height))
-        });
-        burgers = burgers.curve("density times area", 0, known);
-        for circuit in &self.circuits {
-            burgers = burgers.mark("", 1, (circuit.radius / length, circuit.burgers[2] / height), true);
-        }
-        let sizes = self.torsion.iter().flat_map(|at| [at.screw, at.torsion]);
-        let scale = largest(sizes);
-        // Powers of a metre: the prefix is that of the length below.
-        let (below, unit) = prefixed("m", if 0.0 < scale { scale.recip() } else { 1.0 });
-        let torsion = Panel::new("along a radius", format!("distance from the axis ({metre})"), format!("1/{below}"))
-            .with_zero()
-            .curve("screw density", 2, self.torsion.iter().map(|at| (at.distance / length, at.screw * unit)))
-            .dashed("largest torsion", 3, self.torsion.iter().map(|at| (at.distance / length, at.torsion * unit)));
-        figure((1120, 800), title, &|area| {
-            let (circuits, panels) = area.split_vertically(330 * FINE);
-            self.draw_circuit(&circuits, (&tall, height))?;
-            let parts = panels.split_evenly((1, 2));
-            burgers.draw(&parts[0])?;
-            torsion.draw(&parts[1])
-        })
+fn drawing(found: &BurgersCircuits, asked: &ScrewDislocations, title: &str) -> String {
+    let reach = asked.reach();
+    let (metre, length) = prefixed("m", reach);
+    let (tall, height) = prefixed("m", largest(found.circuits.iter().map(|circuit| circuit.burgers[2])));
+    let mut burgers =
+        Panel::new("Burgers vectors of the circuits", format!("radius ({metre})"), format!("b₃ ({tall})"));
+    let known = (0..=80).filter_map(|i| {
+        let radius = reach * f64::from(i) / 80.0;
+        Some((radius / length, asked.closed_form(radius)? / height))
+    });
+    burgers = burgers.curve("density times area", 0, known);
+    for circuit in &found.circuits {
+        burgers = burgers.mark("", 1, (circuit.radius / length, circuit.burgers[2] / height), true);
     }
+    let sizes = found.torsion.iter().flat_map(|at| [at.screw, at.torsion]);
+    let scale = largest(sizes);
+    // Powers of a metre: the prefix is that of the length below.
+    let (below, unit) = prefixed("m", if 0.0 < scale { scale.recip() } else { 1.0 });
+    let torsion = Panel::new("along a radius", format!("distance from the axis ({metre})"), format!("1/{below}"))
+        .with_zero()
+        .curve("screw density", 2, found.torsion.iter().map(|at| (at.distance / length, at.screw * unit)))
+        .dashed("largest torsion", 3, found.torsion.iter().map(|at| (at.distance / length, at.torsion * unit)));
+    figure((1120, 800), title, &|area| {
+        let (circuits, panels) = area.split_vertically(330 * FINE);
+        draw_circuit(found, &circuits, (&tall, height))?;
+        let parts = panels.split_evenly((1, 2));
+        burgers.draw(&parts[0])?;
+        torsion.draw(&parts[1])
+    })
+}
 
-    /// The largest circuit in the body, and as it runs in the crystal.
-    fn draw_circuit(&self, area: &Area<'_>, (unit_name, unit): (&str, f64)) -> Drawn {
-        let parts = area.split_evenly((1, 2));
-        let start = self.in_body.first().copied().unwrap_or_default();
-        let body: Vec<[f64; 3]> = self.in_body.iter().map(|x| core::array::from_fn(|k| x[k] - start[k])).collect();
-        let gap = self.in_crystal.last().copied().unwrap_or_default();
-        let name = format!("in the crystal it ends b = {} {unit_name} from its start", format_short(gap[2] / unit));
-        let view = View::of(body.iter().chain(&self.in_crystal));
-        view.draw(&parts[0], "a circuit in the body is closed", &body, &[])?;
-        view.draw(&parts[1], &name, &self.in_crystal, &[[0.0; 3], gap])
-    }
+/// The largest circuit in the body, and as it runs in the crystal.
+fn draw_circuit(found: &BurgersCircuits, area: &Area<'_>, (unit_name, unit): (&str, f64)) -> Drawn {
+    let parts = area.split_evenly((1, 2));
+    let start = found.in_body.first().copied().unwrap_or_default();
+    let body: Vec<[f64; 3]> = found.in_body.iter().map(|x| core::array::from_fn(|k| x[k] - start[k])).collect();
+    let gap = found.in_crystal.last().copied().unwrap_or_default();
+    let name = format!("in the crystal it ends b = {} {unit_name} from its start", format_short(gap[2] / unit));
+    let view = View::of(body.iter().chain(&found.in_crystal));
+    view.draw(&parts[0], "a circuit in the body is closed", &body, &[])?;
+    view.draw(&parts[1], &name, &found.in_crystal, &[[0.0; 3], gap])
 }
 
 /// An oblique view from above, one scale for both circuits.

@@ -1,10 +1,10 @@
 //! Tubes of layers from checked records.
 
-use super::pressure::{HeldTube, Refusal};
 use super::{Layer, LayeredTube, Layers};
 use crate::model::Builder;
 use piola_document::Mistake;
 use piola_document::Record;
+use piola_studies::internal::{HeldTube, Refusal};
 
 impl Builder<'_> {
     pub(in crate::studies) fn layered_tube(&mut self, scene: &Record, table: &Record) -> Option<LayeredTube> {

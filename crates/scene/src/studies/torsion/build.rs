@@ -1,7 +1,7 @@
 //! Twisted rods from checked records.
 
-use piola_solutions::LoadCurve;
-use piola_solutions::loads::Tube;
+use piola_solutions::SolutionsError;
+use piola_solutions::loads::{Tube, TwistedTube};
 
 use super::TwistedRod;
 use crate::model::Builder;
@@ -23,14 +23,16 @@ impl Builder<'_> {
             points: table.count("points")?,
         };
         // What cannot be had without twist is a mistake of the end, otherwise of the twist.
-        for (key, end) in [("axial_stretch", rod.held()), ("axial_force", rod.pulled())] {
-            if let Err(error) = end.state(0.0) {
+        let ends: [(&str, fn(&TwistedRod, f64) -> Result<TwistedTube, SolutionsError>); 2] =
+            [("axial_stretch", TwistedRod::held_at), ("axial_force", TwistedRod::pulled_at)];
+        for (key, state) in ends {
+            if let Err(error) = state(&rod, 0.0) {
                 let found = format!("the rod cannot be held so without twist: {error}");
                 let valid = if key == "axial_force" { "a force nearer to zero" } else { "a stretch nearer to 1" };
                 return self.refused(table.place_of(key), found, valid);
             }
-            if let Err(error) = end.state(rod.twist) {
-                let most = reach((0.0, rod.twist), |twist| end.state(twist).is_ok());
+            if let Err(error) = state(&rod, rod.twist) {
+                let most = reach((0.0, rod.twist), |twist| state(&rod, twist).is_ok());
                 return self.refused(
                     table.place_of("twist"),
                     error.to_string(),
@@ -39,7 +41,7 @@ impl Builder<'_> {
             }
         }
         if let Some(torque) = rod.torque
-            && let Err(error) = rod.pulled().states_at(torque, (0.0, rod.twist))
+            && let Err(error) = rod.states_at(torque)
         {
             return self.refused(
                 table.place_of("torque"),

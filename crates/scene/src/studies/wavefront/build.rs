@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use super::{Medium, MediumPart, Source, Wavefront};
 use crate::model::Builder;
 use piola_document::Record;
-use piola_simulation::fronts::MOST_RAYS;
+use piola_studies::fronts::MOST_RAYS;
 
 impl Builder<'_> {
     pub(in crate::studies) fn wavefront(&mut self, scene: &Record, table: &Record) -> Option<Wavefront> {

@@ -1,6 +1,6 @@
 //! The plan of a study of wave fronts.
 
-use piola_simulation::fronts::MOST_RAYS;
+use piola_studies::fronts::MOST_RAYS;
 
 use super::{MediumPart, Source, Wavefront};
 use crate::studies::StudyPlan;

@@ -6,15 +6,12 @@ mod numbers;
 
 use piola_spectral::{BoxGrid, Eigenbasis, LameParameters, SpectralError, Walls};
 
-use super::{BoxFields, BoxStudy, FlowTask, MOST_BYTES, MotionTask, Probe, StaticTask, Task, resolved};
+use super::{BoxFields, BoxStudy, FlowTask, MOST_BYTES, MOST_STEPS, MotionTask, Probe, StaticTask, Task, resolved};
 use crate::model::Builder;
 use crate::studies::boxes::plan::bytes_in_words;
 use forms::Frame;
 use numbers::in_words;
 use piola_document::{Record, words};
-
-/// Instants of a motion, and steps of a flow.
-pub(super) const MOST_STEPS: f64 = 100_000.0;
 
 impl Builder<'_> {
     pub(in crate::studies) fn box_study(&mut self, scene: &Record, table: &Record) -> Option<BoxStudy> {

@@ -1,0 +1,105 @@
+//! A run of a robot that can be continued.
+
+use piola_integrators::State;
+use piola_multibody::{ClosedMotion, TreeMotion};
+use piola_simulation::SimulationError;
+use piola_simulation::internal::Marks;
+use serde::{Deserialize, Serialize};
+
+use super::RobotStudy;
+use super::sample::RobotSample;
+
+/// Steps after which a run begins anew from the state alone, so that it can be continued from there.
+pub(super) const PIECE: u32 = 1000;
+
+/// A run where it begins anew, with what it has recorded.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobotCheckpoint {
+    marks: Marks,
+    /// The fingerprint of the body.
+    fingerprint: Marks,
+    pub(super) body: RobotCheckpointBody,
+}
+
+/// What a run goes on from.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RobotCheckpointBody {
+    pub(super) state: State,
+    pub(super) samples: Vec<RobotSample>,
+    pub(super) cost: [u64; 3],
+    pub(super) singular_positions: Vec<(f64, String)>,
+}
+
+impl RobotCheckpoint {
+    pub(super) fn new(robot: &RobotStudy, body: RobotCheckpointBody) -> Self {
+        Self { marks: robot.marks(), fingerprint: body.fingerprint(), body }
+    }
+
+    /// Time reached, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.body.state.time
+    }
+
+    /// Checks that the checkpoint is of this run and is as it was made.
+    ///
+    /// # Errors
+    /// [`SimulationError`]: it is of another study or another version, or it was changed.
+    pub fn check(&self, robot: &RobotStudy) -> Result<(), SimulationError> {
+        self.marks.check(robot.marks())?;
+        self.fingerprint.check(self.body.fingerprint()).map_err(|_| SimulationError::CheckpointChanged)
+    }
+}
+
+impl RobotCheckpointBody {
+    fn fingerprint(&self) -> Marks {
+        Marks::of_run(format_args!("{self:?}"))
+    }
+}
+
+impl RobotStudy {
+    /// The marks of a run, by all that its record depends on: not by the paths of files, which may be spelled in several ways.
+    fn marks(&self) -> Marks {
+        let Self { closed, time, tolerance, samples, stops, start, drives, names, slip_rate, .. } = self;
+        let asked = (time, tolerance, samples, stops);
+        Marks::of_run(format_args!("{asked:?}{closed:?}{start:?}{drives:?}{names:?}{slip_rate:?}"))
+    }
+}
+
+/// Keeps checkpoints of a run.
+pub trait RobotCheckpointKeeper {
+    /// Whether it is time for a checkpoint; asked after each thousandth step.
+    fn is_due(&mut self) -> bool;
+    /// Keeps one.
+    fn keep(&mut self, checkpoint: &RobotCheckpoint);
+}
+
+/// A motion that may remember more than its state.
+pub(super) trait Renewable {
+    /// Whether it may begin anew.
+    fn is_apart(&self) -> bool;
+    /// Forgets all but the state; the conditions that depended on others at positions passed since it did so before, with their times.
+    fn renew(&mut self) -> Vec<(f64, usize)>;
+}
+
+impl<F> Renewable for TreeMotion<'_, F> {
+    fn is_apart(&self) -> bool {
+        true
+    }
+    fn renew(&mut self) -> Vec<(f64, usize)> {
+        Vec::new()
+    }
+}
+
+impl<F> Renewable for ClosedMotion<'_, F> {
+    fn is_apart(&self) -> bool {
+        Self::is_apart(self)
+    }
+    fn renew(&mut self) -> Vec<(f64, usize)> {
+        let passed = self.singular_positions().iter().map(|position| (position.t, position.condition)).collect();
+        self.restart();
+        passed
+    }
+}

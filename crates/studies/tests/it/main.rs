@@ -1,0 +1,5 @@
+//! Tests of what studies compute, beside closed forms.
+
+mod fronts;
+mod media;
+mod samples;
