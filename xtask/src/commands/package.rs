@@ -7,7 +7,7 @@ use xshell::{Shell, cmd};
 
 use super::Command;
 use crate::step::{Outcome, Step};
-use crate::workspace::Workspace;
+use crate::workspace::{Workspace, read};
 
 pub(super) const COMMAND: Command = Command {
     name: "package",
@@ -37,7 +37,8 @@ checked one by one, the facade and the programs together.",
                 "a package could not be unpacked",
             ),
         ];
-        let (manifest, target) = (apart.join("Cargo.toml"), apart.join("target"));
+        // In the target folder of the repository: what others wrote is checked there already.
+        let (manifest, target) = (apart.join("Cargo.toml"), Workspace::target(shell)?);
         // A library alone, so that none leans on a feature that another one asks for; the programs, which ask for much, together.
         let facade = workspace.member("piola").and_then(|facade| facade.manifest.get("dependencies"));
         let is_library = |name: &&str| facade.is_some_and(|dependencies| dependencies.get(name).is_some());
@@ -72,6 +73,14 @@ fn unpack(shell: &Shell, workspace: &Workspace, names: &[&str], packages: &Path,
     let _ = write!(manifest, "members = [{}]\n\n[patch.crates-io]\n", list.join(", "));
     for name in names {
         let _ = writeln!(manifest, "{name} = {{ path = {name:?} }}");
+    }
+    // The profiles, too: with others all that others wrote would be checked again.
+    let root: toml::Table = read(&workspace.root.join("Cargo.toml"))
+        .and_then(|text| text.parse().map_err(|error: toml::de::Error| error.to_string()))
+        .map_err(|error| vec![error])?;
+    if let Some(profiles) = root.get("profile") {
+        let table = toml::Table::from_iter([("profile".to_owned(), profiles.clone())]);
+        let _ = write!(manifest, "\n{table}");
     }
     shell.write_file(apart.join("Cargo.toml"), manifest).map_err(fail)?;
     // The versions of other crates are those of the repository.
