@@ -39,7 +39,10 @@ fn results(arguments: &RunArguments, asked: &Path) -> Result<Folder, SceneError>
 fn run_study(study: &Study, arguments: &RunArguments) -> Exit {
     let flags = [(arguments.resume, "--resume"), (arguments.checkpoint.is_some(), "--checkpoint")];
     if let (false, Some((_, flag))) = (studies::has_checkpoints(study), flags.iter().find(|(given, _)| *given)) {
-        return refuse(&format!("a study leaves no checkpoints: run it without {flag}"), arguments.scene.json);
+        return refuse(
+            &format!("this study takes seconds and leaves no checkpoints: run it without {flag}"),
+            arguments.scene.json,
+        );
     }
     let folder = match results(arguments, &study.output.folder) {
         Ok(folder) => folder,

@@ -8,23 +8,23 @@ use piola_solids::{AnyIsochoric, SolidsError};
 ///
 /// # Example
 /// ```
-/// use piola_studies::Law;
+/// use piola_studies::RubberLaw;
 /// use piola_solids::isochoric::{Isochoric, NeoHookean};
-/// let law = Law::from(NeoHookean::new(0.5e6)?);
+/// let law = RubberLaw::from(NeoHookean::new(0.5e6)?);
 /// assert_eq!(law.shear_modulus(), 0.5e6);
 /// # Ok::<(), piola_solids::SolidsError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Law(AnyIsochoric);
+pub struct RubberLaw(AnyIsochoric);
 
-impl<I: Into<AnyIsochoric>> From<I> for Law {
+impl<I: Into<AnyIsochoric>> From<I> for RubberLaw {
     fn from(law: I) -> Self {
         Self(law.into())
     }
 }
 
 /// Each function is compiled once for a scalar, not in each integrand that calls it.
-impl Isochoric for Law {
+impl Isochoric for RubberLaw {
     const SECOND: bool = true;
 
     #[inline(never)]
@@ -44,7 +44,7 @@ impl Isochoric for Law {
     }
 }
 
-impl Law {
+impl RubberLaw {
     /// The energy.
     #[must_use]
     pub const fn isochoric(&self) -> &AnyIsochoric {

@@ -26,8 +26,8 @@ mod stresses;
 pub mod torsion;
 
 #[cfg(feature = "solutions")]
-pub use law::Law;
-pub use observer::Observer;
+pub use law::RubberLaw;
+pub use observer::{Observer, StudyCheckpointKeeper};
 pub use piola_simulation::Outcome;
 pub use plane_samples::PlaneSamples;
 #[cfg(feature = "solutions")]
@@ -39,5 +39,5 @@ pub mod internal {
     #[cfg(feature = "spectral")]
     pub use crate::boxes::map::{MOST_ROWS, middle_height, points_with_stride, size_at, stride_of};
     #[cfg(feature = "solutions")]
-    pub use crate::laminated_tube::pressure::{HeldTube, Refusal};
+    pub use crate::laminated_tube::pressure::{HeldTube, PressureRefusal};
 }

@@ -104,6 +104,23 @@ fn a_robot_that_is_killed_several_times_goes_on_and_writes_the_same_bytes() {
     }
 }
 
+/// A motion of modes that is recorded often, and a flow of many steps.
+#[cfg(feature = "spectral")]
+#[test]
+fn fields_on_a_box_that_are_killed_several_times_go_on_and_write_the_same_bytes() {
+    let scene = "[box]\nsides = '[1, 1] m'\n";
+    let motion = "type = 'motion'\nmodes = [24, 24]\nfirst_lame_parameter = '2 Pa'\nshear_modulus = '1 Pa'\n\
+        density = '1 kg/m^3'\nduration = '40 s'\ninterval = '0.02 s'\n[[start]]\ntype = 'gaussian'\n\
+        displacement = '[0.001, 0] m'\nat = '[0.4, 0.5] m'\nradius = '0.1 m'\n";
+    let flow = "type = 'flow'\npoints = [32, 32]\nshear_viscosity = '1 Pa s'\nsecond_viscosity = '0 Pa s'\nduration = '2 s'\n\
+        step = '0.002 s'\n[[load]]\ntype = 'gaussian'\nforce_per_volume = '[5, 1] N/m^3'\nat = '[0.4, 0.5] m'\nradius = '0.2 m'\n";
+    for (name, kind) in [("box-motion", motion), ("box-flow", flow)] {
+        let folder = Folder::new(&format!("resume-{name}"));
+        let scene = folder.scene(&format!("{scene}{kind}"));
+        compare_killed(&folder, scene.to_str().unwrap_or_default(), name);
+    }
+}
+
 #[test]
 fn a_checkpoint_of_another_scene_or_version_and_one_that_is_torn_are_refused() {
     let folder = Folder::new("resume-refused");
@@ -151,7 +168,7 @@ fn a_run_without_a_checkpoint_says_so_and_begins_at_its_start() {
     let study = folder.scene("[wavefront]\ntype = 'point'\nlength = 1.0\n[[medium]]\ntype = 'uniform'\n");
     let output = folder.piola(&["run", study.to_str().unwrap_or_default(), "--out", "out", "--resume"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(err(&output).contains("a study leaves no checkpoints"), "{}", err(&output));
+    assert!(err(&output).contains("this study takes seconds and leaves no checkpoints"), "{}", err(&output));
     let output = folder.piola(&["run", study.to_str().unwrap_or_default(), "--out", "out", "--checkpoint", "5"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(err(&output).contains("run it without --checkpoint"), "{}", err(&output));

@@ -168,13 +168,13 @@ impl CheckpointKeeper for Checkpoints {
     }
 }
 
-#[cfg(feature = "robots")]
-impl piola_studies::robot::RobotCheckpointKeeper for Checkpoints {
+#[cfg(any(feature = "robots", feature = "spectral"))]
+impl<C: Serialize> piola_studies::StudyCheckpointKeeper<C> for Checkpoints {
     fn is_due(&mut self) -> bool {
         self.pause_is_over()
     }
 
-    fn keep(&mut self, checkpoint: &piola_studies::robot::RobotCheckpoint) {
+    fn keep(&mut self, checkpoint: &C) {
         self.write(checkpoint);
     }
 }

@@ -3,19 +3,19 @@
 use piola_solids::SolidsError;
 use piola_solids::isochoric::{ArrudaBoyce, Gent, Isochoric, MooneyRivlin, NeoHookean, Yeoh};
 
-use super::Law;
+use super::RubberLaw;
 use super::panel::quantity;
 use crate::model::Builder;
 use piola_document::Record;
 
 /// A law in words, with the scale of its stresses.
-pub(super) fn material(law: &Law) -> String {
+pub(super) fn material(law: &RubberLaw) -> String {
     format!("{} rubber of shear modulus {}", law.name(), quantity("Pa", law.shear_modulus()))
 }
 
 impl Builder<'_> {
     /// The law of a scene of the kind `name`.
-    pub(super) fn law(&mut self, scene: &Record, name: &str) -> Option<Law> {
+    pub(super) fn law(&mut self, scene: &Record, name: &str) -> Option<RubberLaw> {
         let Some(table) = scene.record("law") else {
             if !scene.has("law") {
                 self.refuse(
@@ -28,11 +28,11 @@ impl Builder<'_> {
         };
         let number = |key: &str| table.number(key);
         let (made, key) = match table.text("type")? {
-            "neo-hookean" => (NeoHookean::new(number("shear_modulus")?).map(Law::from), "shear_modulus"),
-            "mooney-rivlin" => (MooneyRivlin::new(number("c10")?, number("c01")?).map(Law::from), "c10"),
-            "yeoh" => (Yeoh::new(number("c1")?, number("c2")?, number("c3")?).map(Law::from), "c1"),
-            "gent" => (Gent::new(number("shear_modulus")?, number("limit")?).map(Law::from), "limit"),
-            _ => (ArrudaBoyce::new(number("rubbery_modulus")?, number("links")?).map(Law::from), "links"),
+            "neo-hookean" => (NeoHookean::new(number("shear_modulus")?).map(RubberLaw::from), "shear_modulus"),
+            "mooney-rivlin" => (MooneyRivlin::new(number("c10")?, number("c01")?).map(RubberLaw::from), "c10"),
+            "yeoh" => (Yeoh::new(number("c1")?, number("c2")?, number("c3")?).map(RubberLaw::from), "c1"),
+            "gent" => (Gent::new(number("shear_modulus")?, number("limit")?).map(RubberLaw::from), "limit"),
+            _ => (ArrudaBoyce::new(number("rubbery_modulus")?, number("links")?).map(RubberLaw::from), "links"),
         };
         match made {
             Ok(law) => Some(law),

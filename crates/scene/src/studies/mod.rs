@@ -61,7 +61,7 @@ pub use self::{
 };
 
 #[cfg(feature = "solutions")]
-pub use piola_studies::{Law, StressAt};
+pub use piola_studies::{RubberLaw, StressAt};
 
 #[cfg(feature = "spectral")]
 pub use boxes::BoxStudy;

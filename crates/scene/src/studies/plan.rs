@@ -4,6 +4,10 @@ use core::fmt;
 
 use serde::Serialize;
 
+#[cfg(feature = "spectral")]
+use super::boxes;
+#[cfg(feature = "robots")]
+use super::robot;
 use super::{Study, Subject, room, wavefront};
 use crate::plan::Item;
 
@@ -65,9 +69,9 @@ impl StudyPlan {
             #[cfg(feature = "solutions")]
             Subject::Solid(solid) => solid.plan(&mut plan),
             #[cfg(feature = "spectral")]
-            Subject::Box(fields) => super::boxes::plan(fields, &mut plan),
+            Subject::Box(fields) => boxes::plan(fields, &mut plan),
             #[cfg(feature = "robots")]
-            Subject::Robot(robot) => super::robot::plan(robot, &mut plan),
+            Subject::Robot(robot) => robot::plan(robot, &mut plan),
         };
         for (wanted, files, what) in
             [(study.output.tables, tables, "tables"), (study.output.figures, figures, "figures")]

@@ -71,7 +71,7 @@ pub fn run(study: &Study, mut observer: impl FnMut(f64) -> ControlFlow<()>) -> S
     begun(study, Before::Nothing, None, &mut observer)
 }
 
-/// Whether runs of a study leave checkpoints: those of a `[robot]` do.
+/// Whether runs of a study leave checkpoints: those of a `[robot]` do, and those of a `[box]` that moves or flows. The others take seconds.
 #[must_use]
 pub fn has_checkpoints(study: &Study) -> bool {
     study.subject.has_checkpoints()
@@ -102,14 +102,14 @@ pub fn run_with_checkpoints(
 }
 
 impl Subject {
-    #[cfg(feature = "robots")]
     const fn has_checkpoints(&self) -> bool {
-        matches!(self, Self::Robot(_))
-    }
-
-    #[cfg(not(feature = "robots"))]
-    const fn has_checkpoints(&self) -> bool {
-        false
+        match self {
+            #[cfg(feature = "robots")]
+            Self::Robot(_) => true,
+            #[cfg(feature = "spectral")]
+            Self::Box(fields) => fields.has_checkpoints(),
+            _ => false,
+        }
     }
 }
 
@@ -118,6 +118,8 @@ enum Before {
     Nothing,
     #[cfg(feature = "robots")]
     Robot(Box<super::robot::RobotCheckpoint>),
+    #[cfg(feature = "spectral")]
+    Box(Box<super::boxes::BoxCheckpoint>),
 }
 
 impl Before {
@@ -126,6 +128,11 @@ impl Before {
         if let Subject::Robot(robot) = &study.subject {
             let last = checkpoints.read(|last: &super::robot::RobotCheckpoint| last.check(robot))?;
             return Ok(last.map_or(Self::Nothing, |last| Self::Robot(Box::new(last))));
+        }
+        #[cfg(feature = "spectral")]
+        if let Subject::Box(fields) = &study.subject {
+            let last = checkpoints.read(|last: &super::boxes::BoxCheckpoint| last.check(fields))?;
+            return Ok(last.map_or(Self::Nothing, |last| Self::Box(Box::new(last))));
         }
         let _ = (study, checkpoints);
         Ok(Self::Nothing)
@@ -136,6 +143,8 @@ impl Before {
             Self::Nothing => None,
             #[cfg(feature = "robots")]
             Self::Robot(checkpoint) => Some(checkpoint.time()),
+            #[cfg(feature = "spectral")]
+            Self::Box(checkpoint) => Some(checkpoint.time()),
         }
     }
 }
@@ -147,7 +156,7 @@ fn begun(
     mut observer: &mut Observer<'_>,
 ) -> StudyRun {
     let begun = Instant::now();
-    #[cfg(not(feature = "robots"))]
+    #[cfg(not(any(feature = "robots", feature = "spectral")))]
     let _ = (from, checkpoints);
     let (findings, outcome) = match &study.subject {
         Subject::Wavefront(wavefront) => {
@@ -165,13 +174,15 @@ fn begun(
         }
         #[cfg(feature = "spectral")]
         Subject::Box(fields) => {
-            let (found, outcome) = fields.run(&mut observer);
+            let from = if let Before::Box(checkpoint) = from { Some(*checkpoint) } else { None };
+            let keeper = checkpoints.map(|keeper| keeper as &mut dyn piola_studies::StudyCheckpointKeeper<_>);
+            let (found, outcome) = fields.run_with_checkpoints(from, keeper, &mut observer);
             (Findings::Box(Box::new(found)), outcome)
         }
         #[cfg(feature = "robots")]
         Subject::Robot(robot) => {
             let from = if let Before::Robot(checkpoint) = from { Some(*checkpoint) } else { None };
-            let keeper = checkpoints.map(|keeper| keeper as &mut dyn piola_studies::robot::RobotCheckpointKeeper);
+            let keeper = checkpoints.map(|keeper| keeper as &mut dyn piola_studies::StudyCheckpointKeeper<_>);
             let (found, outcome) = robot.run(from, keeper, &mut observer);
             (Findings::Robot(Box::new(found)), outcome)
         }

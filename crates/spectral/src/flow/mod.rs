@@ -167,6 +167,43 @@ impl<T: Precision, const D: usize> ViscousFlow<T, D> {
         self.finished.len()
     }
 
+    /// The pieces of the map, each with its displacement, m, and its least Jacobian: those that were put away, then the last one.
+    pub fn pieces(&self) -> impl Iterator<Item = ([&[T]; D], f64)> {
+        let finished =
+            self.finished.iter().map(|map| (map.displacement.each_ref().map(Vec::as_slice), map.least_jacobian));
+        finished.chain([(self.displacement(), self.least_jacobian)])
+    }
+
+    /// A flow that goes on from the [`pieces`](Self::pieces) of another, bit for bit as that one would.
+    ///
+    /// # Errors
+    /// As of [`new`](Self::new); no piece, a list of the wrong length, a displacement or a least Jacobian that is not finite.
+    pub fn from_pieces(
+        solver: BoxSolver<T, D>,
+        least_jacobian: f64,
+        pieces: impl IntoIterator<Item = ([Vec<T>; D], f64)>,
+    ) -> Result<Self, SpectralError> {
+        let mut flow = Self::new(solver, least_jacobian)?;
+        for (displacement, least_jacobian) in pieces {
+            for list in &displacement {
+                check_length("displacement", list.len(), flow.solver.grid().len())?;
+                for (index, value) in list.iter().enumerate() {
+                    let value = value.primal(0);
+                    if !value.is_finite() {
+                        return Err(SpectralError::NotFinite { quantity: "displacement", index, value });
+                    }
+                }
+            }
+            check_bound("least Jacobian", least_jacobian, "0 < J", 0.0 < least_jacobian)?;
+            flow.finished.push(FinishedMap { displacement, least_jacobian });
+        }
+        let Some(last) = flow.finished.pop() else {
+            return Err(SpectralError::WrongLength { quantity: "pieces", found: 0, expected: 1 });
+        };
+        (flow.displacement, flow.least_jacobian) = (last.displacement, last.least_jacobian);
+        Ok(flow)
+    }
+
     /// A lower bound of the Jacobian of the whole map at the points of the grids: the product of the least Jacobians of its
     /// pieces. It is positive, so the map is invertible.
     #[must_use]

@@ -13,7 +13,7 @@ use piola_solutions::families::Orientation;
 use piola_solutions::loads::{Shell, SphereInflation};
 use piola_solutions::{CurvePoint, LoadCurve, LocalDeformation, ResponseFunctions, SolutionsError};
 
-use crate::Law;
+use crate::RubberLaw;
 
 /// A spherical shell, and the range of its stretch.
 ///
@@ -21,10 +21,10 @@ use crate::Law;
 /// ```
 /// use piola_solids::isochoric::NeoHookean;
 /// use piola_solutions::loads::Shell;
-/// use piola_studies::{Law, Outcome, balloon::Balloon};
+/// use piola_studies::{RubberLaw, Outcome, balloon::Balloon};
 /// use std::ops::ControlFlow;
 /// let shell = Shell::new(1.0, 1.001)?;
-/// let law = Law::from(NeoHookean::new(1e6)?);
+/// let law = RubberLaw::from(NeoHookean::new(1e6)?);
 /// let balloon = Balloon { shell, law, stretch: [1.0, 4.0], pressure: None, points: 100 };
 /// let (found, outcome) = balloon.run(&mut |_| ControlFlow::Continue(()));
 /// assert_eq!(outcome, Outcome::Completed);
@@ -37,7 +37,7 @@ pub struct Balloon {
     /// The shell in the reference.
     pub shell: Shell,
     /// The law.
-    pub law: Law,
+    pub law: RubberLaw,
     /// The least and the greatest stretch of the inner face.
     pub stretch: [f64; 2],
     /// The pressure of the states that are sought, Pa.
@@ -47,7 +47,7 @@ pub struct Balloon {
 }
 
 impl Balloon {
-    pub(crate) const fn inflation(&self) -> SphereInflation<'_, Law> {
+    pub(crate) const fn inflation(&self) -> SphereInflation<'_, RubberLaw> {
         SphereInflation { shell: self.shell, law: &self.law, orientation: Orientation::Kept }
     }
 

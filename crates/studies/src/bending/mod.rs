@@ -13,7 +13,7 @@ use piola_solids::isochoric::Isochoric;
 use piola_solutions::loads::{Bending, BentBlock, Block};
 use piola_solutions::{CurvePoint, LoadCurve, SolutionsError};
 
-use crate::Law;
+use crate::RubberLaw;
 
 /// A block, and how far it is bent.
 ///
@@ -21,9 +21,9 @@ use crate::Law;
 /// ```
 /// use piola_solids::isochoric::NeoHookean;
 /// use piola_solutions::loads::Block;
-/// use piola_studies::{Law, bending::BentBlockStudy};
+/// use piola_studies::{RubberLaw, bending::BentBlockStudy};
 /// use std::ops::ControlFlow;
-/// let (block, law) = (Block::new(1.0, 1.0, 1.0)?, Law::from(NeoHookean::new(1.0)?));
+/// let (block, law) = (Block::new(1.0, 1.0, 1.0)?, RubberLaw::from(NeoHookean::new(1.0)?));
 /// let study = BentBlockStudy { block, law, angle: 1.0, axial_stretch: 1.0, moment: None, points: 10 };
 /// let (found, _) = study.run(&mut |_| ControlFlow::Continue(()));
 /// // r₁ r₂ = 1 and r₂² − r₁² = 2: r² = √2 ± 1.
@@ -35,7 +35,7 @@ pub struct BentBlockStudy {
     /// The block in the reference.
     pub block: Block,
     /// The law.
-    pub law: Law,
+    pub law: RubberLaw,
     /// Largest angle between the ends, rad.
     pub angle: f64,
     /// Stretch along the axis of bending.
@@ -47,7 +47,7 @@ pub struct BentBlockStudy {
 }
 
 impl BentBlockStudy {
-    pub(crate) const fn bending(&self) -> Bending<'_, Law> {
+    pub(crate) const fn bending(&self) -> Bending<'_, RubberLaw> {
         Bending { block: self.block, law: &self.law, axial_stretch: self.axial_stretch }
     }
 

@@ -1,8 +1,12 @@
 //! A creeping flow and the map of its particles.
 
+use serde::{Deserialize, Serialize};
+
 use piola_spectral::{BoxGrid, BoxOperator, BoxSolver, FlowReport, SpectralError, ViscousFlow};
 
+use super::checkpoint::{Body, BoxCheckpoint, FlowBody};
 use super::map::{middle_height, points_with_stride};
+use super::run::Keeper;
 use super::statics::solve_for_loads;
 use super::{BoxFields, FlowTask, MOST_BYTES, MOST_STEPS, Probe};
 use crate::{Observer, PlaneSamples};
@@ -38,7 +42,7 @@ pub struct FlowHistory<const D: usize> {
 }
 
 /// A flow after a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FlowInstant {
     /// The time, s.
     pub time: f64,
@@ -69,8 +73,8 @@ impl<const D: usize> FlowHistory<D> {
     /// Follows the flow to its end; false when the observer stopped it.
     pub(super) fn follow(
         &mut self,
-        fields: &BoxFields<D>,
-        task: &FlowTask<D>,
+        (fields, task): (&BoxFields<D>, &FlowTask<D>),
+        (from, keeper): (Option<FlowBody>, Keeper<'_>),
         observer: &mut Observer<'_>,
     ) -> Result<bool, String> {
         let words = |error: SpectralError| error.to_string();
@@ -79,8 +83,11 @@ impl<const D: usize> FlowHistory<D> {
             solver = solver.with_truncation(modes);
         }
         (self.velocity, _) = solve_for_loads(fields, &mut solver, task.modes.is_some()).map_err(words)?;
-        let mut flow = ViscousFlow::new(solver, task.least_jacobian).map_err(words)?;
-        let advanced = self.advance(&mut flow, fields, task, observer);
+        let (mut flow, now, step) = match from {
+            Some(body) => body.restore(solver, task, self).map_err(words)?,
+            None => (ViscousFlow::new(solver, task.least_jacobian).map_err(words)?, 0.0, self.first_step(task)?),
+        };
+        let advanced = self.advance(&mut flow, (fields, task), (now, step), keeper, observer);
         // However far it came, the map so far is kept.
         self.map(&flow, fields).map_err(words)?;
         advanced
@@ -89,13 +96,12 @@ impl<const D: usize> FlowHistory<D> {
     fn advance(
         &mut self,
         flow: &mut ViscousFlow<f64, D>,
-        fields: &BoxFields<D>,
-        task: &FlowTask<D>,
+        (fields, task): (&BoxFields<D>, &FlowTask<D>),
+        (mut now, mut step): (f64, f64),
+        mut keeper: Keeper<'_>,
         observer: &mut Observer<'_>,
     ) -> Result<bool, String> {
-        let mut step = self.first_step(task)?;
         let one_map = 8.0 * (D * task.grid.len()) as f64;
-        let mut now = 0.0;
         while now < task.duration {
             // The last step ends at the end, and none is only rounding.
             let left = task.duration - now;
@@ -115,7 +121,13 @@ impl<const D: usize> FlowHistory<D> {
                 let (count, most) = (flow.regriddings(), MOST_BYTES / 1_073_741_824.0);
                 return Err(format!("{count} displacements that were put away take more than {most} GiB"));
             }
-            if observer(now / task.duration).is_break() {
+            let stopped = observer(now / task.duration).is_break();
+            if let Some(keeper) = &mut keeper
+                && (stopped || keeper.is_due())
+            {
+                keeper.keep(&BoxCheckpoint::new(fields, Body::Flow(FlowBody::of(flow, self, (now, step)))));
+            }
+            if stopped {
                 return Ok(task.duration <= now);
             }
         }

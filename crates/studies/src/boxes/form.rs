@@ -116,6 +116,19 @@ impl<const D: usize> Form<D> {
     }
 }
 
+/// All indices up to the highest.
+pub(super) fn indices<const D: usize>(highest: [usize; D]) -> impl Iterator<Item = [usize; D]> {
+    (0..highest.iter().map(|index| index + 1).product()).map(move |position| {
+        let mut rest: usize = position;
+        let mut indices = [0; D];
+        for axis in (0..D).rev() {
+            indices[axis] = rest % (highest[axis] + 1);
+            rest /= highest[axis] + 1;
+        }
+        indices
+    })
+}
+
 /// The sum of series times factors.
 pub(super) fn sum<const D: usize>(
     sides: [f64; D],
@@ -124,13 +137,7 @@ pub(super) fn sum<const D: usize>(
     parts: &[(f64, &ModalSeries<D>)],
 ) -> Result<ModalSeries<D>, SpectralError> {
     let mut total = ModalSeries::zeros(sides, walls, highest)?;
-    for position in 0..highest.iter().map(|index| index + 1).product() {
-        let mut rest = position;
-        let mut indices = [0; D];
-        for axis in (0..D).rev() {
-            indices[axis] = rest % (highest[axis] + 1);
-            rest /= highest[axis] + 1;
-        }
+    for indices in indices(highest) {
         let mut amplitudes = [0.0; D];
         for (factor, part) in parts {
             for (amplitude, own) in amplitudes.iter_mut().zip(part.amplitudes(indices)) {

@@ -1,5 +1,6 @@
 //! Elastic and viscous fields on a rectangle or a box, by the eigenfunctions of their operator.
 
+mod checkpoint;
 mod flow;
 mod form;
 mod load;
@@ -8,6 +9,7 @@ mod motion;
 mod run;
 mod statics;
 
+pub use checkpoint::BoxCheckpoint;
 pub use flow::{FlowHistory, FlowInstant};
 pub use form::{Form, Load, Start};
 pub use motion::{MotionHistory, MotionInstant};

@@ -2,7 +2,9 @@
 
 use piola_spectral::{BoxOperator, ModalMotion, SpectralError};
 
+use super::checkpoint::{Body, BoxCheckpoint, MotionBody};
 use super::load::Forces;
+use super::run::Keeper;
 use super::statics::{finite, series_of};
 use super::{BoxFields, Form, MotionTask, Probe};
 use crate::Observer;
@@ -76,21 +78,28 @@ impl<const D: usize> MotionHistory<D> {
     /// Follows the motion to its end; false when the observer stopped it.
     pub(super) fn follow(
         &mut self,
-        fields: &BoxFields<D>,
-        task: &MotionTask<D>,
+        (fields, task): (&BoxFields<D>, &MotionTask<D>),
+        (from, mut keeper): (Option<MotionBody>, Keeper<'_>),
         observer: &mut Observer<'_>,
     ) -> Result<bool, SpectralError> {
         let forms = |is_velocity: bool| -> Vec<&Form<D>> {
             task.starts.iter().filter(|start| start.is_velocity == is_velocity).map(|start| &start.form).collect()
         };
-        let displacement = series_of(fields, &forms(false), task.modes)?;
-        let velocity = series_of(fields, &forms(true), task.modes)?;
+        let is_new = from.is_none();
+        let ([displacement, velocity], mut now) = match from {
+            Some(body) => body.restore(fields, task, self)?,
+            None => {
+                ([series_of(fields, &forms(false), task.modes)?, series_of(fields, &forms(true), task.modes)?], 0.0)
+            }
+        };
         let operator = BoxOperator::elastic(fields.lame);
         let mut motion = ModalMotion::new(operator, task.density, task.drag, displacement, velocity)?;
         let mut forces = Forces::new(&fields.loads, (fields.sides, fields.walls, task.modes))?;
-        let mut now = 0.0;
-        self.record(&motion, fields, now)?;
-        for instant in task.instants() {
+        if is_new {
+            self.record(&motion, fields, now)?;
+        }
+        let recorded = self.instants.len() - 1;
+        for instant in task.instants().skip(recorded) {
             while now < instant {
                 let next = instant.min(forces.next_change(now));
                 motion.step(next - now, forces.of_step(now)?)?;
@@ -98,7 +107,13 @@ impl<const D: usize> MotionHistory<D> {
                 self.steps += 1;
             }
             self.record(&motion, fields, now)?;
-            if observer(now / task.duration).is_break() {
+            let stopped = observer(now / task.duration).is_break();
+            if let Some(keeper) = &mut keeper
+                && (stopped || keeper.is_due())
+            {
+                keeper.keep(&BoxCheckpoint::new(fields, Body::Motion(MotionBody::of(&motion, self, now))));
+            }
+            if stopped {
                 return Ok(task.duration <= now);
             }
         }

@@ -8,7 +8,7 @@
 
 mod run;
 
-pub use run::{BurgersCircuits, Circuit, TorsionAt};
+pub use run::{BurgersCircuit, BurgersCircuits, TorsionAt};
 
 use core::f64::consts::{PI, TAU};
 

@@ -27,7 +27,7 @@ const TOLERANCE: f64 = 1e-12;
 /// # Example
 /// See [`ScrewDislocations`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Circuit {
+pub struct BurgersCircuit {
     /// Radius, m.
     pub radius: f64,
     /// b, m, in components of the crystal.
@@ -61,7 +61,7 @@ pub struct TorsionAt {
 #[derive(Debug, Clone, Default)]
 pub struct BurgersCircuits {
     /// The circuits, in the order of the scene.
-    pub circuits: Vec<Circuit>,
+    pub circuits: Vec<BurgersCircuit>,
     /// The largest circuit in the body, m.
     pub in_body: Vec<[f64; 3]>,
     /// The same circuit as it runs in the crystal, m: it ends at the Burgers vector.
@@ -108,7 +108,7 @@ impl ScrewDislocations {
         for radius in &self.radii {
             let circle = RoundCircuit::new(centre, Vector3::z(), *radius)?;
             let burgers = BurgersVector::of(&lattice, &circle, TOLERANCE)?;
-            found.circuits.push(Circuit {
+            found.circuits.push(BurgersCircuit {
                 radius: *radius,
                 burgers: burgers.value.into(),
                 error: burgers.error.into(),
@@ -184,7 +184,7 @@ impl BurgersCircuits {
     /// The largest |b₃ − closed form| over the closed form.
     #[must_use]
     pub fn largest_difference(&self) -> Option<f64> {
-        let difference = |circuit: &Circuit| {
+        let difference = |circuit: &BurgersCircuit| {
             let known = circuit.closed_form?;
             Some((circuit.burgers[2] - known).abs() / known.abs().max(f64::MIN_POSITIVE))
         };

@@ -13,19 +13,19 @@ pub use run::{TubeState, TubeStresses};
 use piola_numerics::Real;
 use piola_uniformity::laminated::{LaminaMetric, Lamination};
 
-use crate::Law;
+use crate::RubberLaw;
 
 /// A tube of layers, and the pressure inside.
 ///
 /// # Example
 /// ```
 /// use piola_solids::isochoric::NeoHookean;
-/// use piola_studies::Law;
+/// use piola_studies::RubberLaw;
 /// use piola_studies::laminated_tube::{Layer, LayeredTube, Layers};
 /// use std::ops::ControlFlow;
 /// let layer = |hoop: f64| Layer { thickness: 0.5, growth: [1.0, hoop, 1.0] };
 /// let layers = Layers::new(1.0, vec![layer(1.1), layer(1.0)]);
-/// let tube = LayeredTube { layers, law: Law::from(NeoHookean::new(1.0)?), pressure: 0.1, stretch: 2.0 };
+/// let tube = LayeredTube { layers, law: RubberLaw::from(NeoHookean::new(1.0)?), pressure: 0.1, stretch: 2.0 };
 /// let (found, _) = tube.run(&mut |_| ControlFlow::Continue(()));
 /// // Without loads the layer that has grown is pressed by its neighbour.
 /// let Some(rest) = &found.at_rest else { panic!() };
@@ -37,7 +37,7 @@ pub struct LayeredTube {
     /// The layers.
     pub layers: Layers,
     /// The law of all layers.
-    pub law: Law,
+    pub law: RubberLaw,
     /// Pressure inside, Pa.
     pub pressure: f64,
     /// Largest stretch of the inner face over that without loads.

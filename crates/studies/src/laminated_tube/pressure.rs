@@ -4,7 +4,7 @@ use piola_uniformity::UniformityError;
 use piola_uniformity::laminated::{LaminatedTube, SheetState};
 
 use super::Layers;
-use crate::Law;
+use crate::RubberLaw;
 
 /// Intervals of the range of stretches that are searched one by one.
 const INTERVALS: u32 = 96;
@@ -13,7 +13,7 @@ const INTERVALS: u32 = 96;
 #[derive(Debug)]
 pub struct HeldTube<'a> {
     tube: LaminatedTube<&'a Layers>,
-    law: &'a Law,
+    law: &'a RubberLaw,
     /// r of the inner face without pressure, m.
     pub(super) radius: f64,
     /// λ.
@@ -22,7 +22,7 @@ pub struct HeldTube<'a> {
 
 /// Why no state carries a pressure.
 #[derive(Debug)]
-pub enum Refusal {
+pub enum PressureRefusal {
     /// It is beyond the largest one.
     Beyond {
         /// The largest, Pa.
@@ -36,7 +36,7 @@ pub enum Refusal {
     Refused(UniformityError),
 }
 
-impl From<UniformityError> for Refusal {
+impl From<UniformityError> for PressureRefusal {
     fn from(error: UniformityError) -> Self {
         Self::Refused(error)
     }
@@ -44,7 +44,7 @@ impl From<UniformityError> for Refusal {
 
 impl<'a> HeldTube<'a> {
     /// The tube without loads.
-    pub fn at_rest(layers: &'a Layers, law: &'a Law) -> Result<Self, UniformityError> {
+    pub fn at_rest(layers: &'a Layers, law: &'a RubberLaw) -> Result<Self, UniformityError> {
         let tube = LaminatedTube::new(layers, layers.radii())?;
         let rest = tube.at_rest(law)?.state;
         let [radius, _, axial_stretch] = rest.place([layers.radii()[0], 0.0, 1.0])?;
@@ -72,7 +72,7 @@ impl<'a> HeldTube<'a> {
     }
 
     /// The first stretch at which a pressure is carried.
-    pub fn stretch_at(&self, pressure: f64, largest: f64) -> Result<f64, Refusal> {
+    pub fn stretch_at(&self, pressure: f64, largest: f64) -> Result<f64, PressureRefusal> {
         if pressure <= 0.0 {
             return Ok(1.0);
         }
@@ -84,7 +84,7 @@ impl<'a> HeldTube<'a> {
             let (stretch, most) = if is_end { curve[highest] } else { self.highest(around)? };
             // Between two points of the search the curve may reach it all the same.
             if most < pressure {
-                return Err(Refusal::Beyond { most, stretch, is_end });
+                return Err(PressureRefusal::Beyond { most, stretch, is_end });
             }
             return Ok(self.bisected(pressure, (curve[highest.saturating_sub(1)].0, stretch))?);
         };

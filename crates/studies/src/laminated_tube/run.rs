@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 
 use piola_uniformity::UniformityError;
 
-use super::pressure::{HeldTube, Refusal};
+use super::pressure::{HeldTube, PressureRefusal};
 use super::{LayeredTube, Layers};
 use crate::StressAt;
 use crate::observer::{Observer, outcome};
@@ -82,10 +82,10 @@ impl LayeredTube {
 
     fn state(&self, layers: &Layers, held: &HeldTube<'_>, pressure: f64) -> Result<TubeState, UniformityError> {
         let stretch = held.stretch_at(pressure, self.stretch).map_err(|refusal| match refusal {
-            Refusal::Beyond { most, .. } => {
+            PressureRefusal::Beyond { most, .. } => {
                 UniformityError::NotConverged { quantity: "pressure", error: pressure - most, allowed: 0.0 }
             }
-            Refusal::Refused(error) => error,
+            PressureRefusal::Refused(error) => error,
         })?;
         let state = held.state(stretch)?;
         let loads = state.loads(&self.law, -pressure)?;

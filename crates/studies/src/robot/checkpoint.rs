@@ -68,14 +68,6 @@ impl RobotStudy {
     }
 }
 
-/// Keeps checkpoints of a run.
-pub trait RobotCheckpointKeeper {
-    /// Whether it is time for a checkpoint; asked after each thousandth step.
-    fn is_due(&mut self) -> bool;
-    /// Keeps one.
-    fn keep(&mut self, checkpoint: &RobotCheckpoint);
-}
-
 /// A motion that may remember more than its state.
 pub(super) trait Renewable {
     /// Whether it may begin anew.

@@ -10,7 +10,7 @@ use piola_multibody::{ClosedTree, Visual};
 
 use piola_simulation::motion::TimeSpan;
 
-pub use checkpoint::{RobotCheckpoint, RobotCheckpointKeeper};
+pub use checkpoint::RobotCheckpoint;
 pub use run::RobotMotion;
 pub use sample::RobotSample;
 

@@ -8,9 +8,9 @@ use piola_integrators::{DormandPrince853, Ending, Field, IntegratorsError, State
 use piola_multibody::{MultibodyError, TreeWorkspace};
 
 use super::RobotStudy;
-use super::checkpoint::{PIECE, Renewable, RobotCheckpoint, RobotCheckpointBody, RobotCheckpointKeeper};
+use super::checkpoint::{PIECE, Renewable, RobotCheckpoint, RobotCheckpointBody};
 use super::sample::{RobotSample, WORKS};
-use crate::{Observer, Outcome};
+use crate::{Observer, Outcome, StudyCheckpointKeeper};
 
 /// A run with all that it recorded, however far it came.
 #[derive(Debug, Clone, Default)]
@@ -113,7 +113,7 @@ impl RobotStudy {
     pub fn run(
         &self,
         from: Option<RobotCheckpoint>,
-        keeper: Option<&mut dyn RobotCheckpointKeeper>,
+        keeper: Option<&mut dyn StudyCheckpointKeeper<RobotCheckpoint>>,
         observer: &mut Observer<'_>,
     ) -> (RobotMotion, Outcome) {
         let mut found = RobotMotion { names: self.names[0].clone(), ..RobotMotion::default() };
@@ -138,7 +138,7 @@ impl RobotStudy {
         &self,
         motion: F,
         found: &mut RobotMotion,
-        (from, mut keeper): (Option<RobotCheckpoint>, Option<&mut dyn RobotCheckpointKeeper>),
+        (from, mut keeper): (Option<RobotCheckpoint>, Option<&mut dyn StudyCheckpointKeeper<RobotCheckpoint>>),
         observer: &mut Observer<'_>,
     ) -> Result<Ending, String> {
         let mut motion = WithWorks { motion, robot: self, apart: Rc::new(Cell::new(true)) };

@@ -8,7 +8,7 @@
 
 mod run;
 
-pub use run::{Arrivals, Loss};
+pub use run::{Arrivals, LossOfInvertibility};
 
 use piola_characteristics::{FirstOrderPde, InitialManifold};
 use piola_numerics::Real;

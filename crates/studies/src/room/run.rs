@@ -24,7 +24,7 @@ const CHECKED: usize = 40;
 
 /// Where characteristics first cross.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Loss {
+pub struct LossOfInvertibility {
     /// The time, s.
     pub time: f64,
     /// The place, m.
@@ -47,7 +47,7 @@ pub struct Arrivals {
     /// Caustics, piece by piece.
     pub caustic: Vec<Vec<[f64; 2]>>,
     /// The first loss of invertibility.
-    pub first_loss: Option<Loss>,
+    pub first_loss: Option<LossOfInvertibility>,
     /// The first loss in closed form, s, where there is one.
     pub closed_form_of_first_loss: Option<f64>,
     /// Number of characteristics.
@@ -132,7 +132,7 @@ impl Room {
             if progress.stopped() {
                 return Ok(false);
             }
-            let loss = solution.first_loss_of_invertibility()?.map(|loss| Loss {
+            let loss = solution.first_loss_of_invertibility()?.map(|loss| LossOfInvertibility {
                 time: loss.point.s,
                 place: [loss.point.x[0], loss.point.x[1]],
                 angle: loss.point.parameters[0],

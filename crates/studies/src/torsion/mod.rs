@@ -11,7 +11,7 @@ pub use run::{RodCurves, TwistedState};
 use piola_solutions::loads::{Ends, Torsion, Tube, TwistedTube};
 use piola_solutions::{CurvePoint, LoadCurve, SolutionsError};
 
-use crate::Law;
+use crate::RubberLaw;
 
 /// A rod or a tube, and how far it is twisted.
 ///
@@ -19,9 +19,9 @@ use crate::Law;
 /// ```
 /// use piola_solids::isochoric::NeoHookean;
 /// use piola_solutions::loads::Tube;
-/// use piola_studies::{Law, torsion::TwistedRod};
+/// use piola_studies::{RubberLaw, torsion::TwistedRod};
 /// use std::ops::ControlFlow;
-/// let (tube, law) = (Tube::solid(1.0)?, Law::from(NeoHookean::new(1.0)?));
+/// let (tube, law) = (Tube::solid(1.0)?, RubberLaw::from(NeoHookean::new(1.0)?));
 /// let rod = TwistedRod { tube, law, twist: 0.5, axial_stretch: 1.0, axial_force: 0.0, torque: None, points: 10 };
 /// let (found, _) = rod.run(&mut |_| ControlFlow::Continue(()));
 /// // λ³ = 1 + ¼ ψ² R² of a neo-Hookean rod without axial force.
@@ -33,7 +33,7 @@ pub struct TwistedRod {
     /// The rod in the reference.
     pub tube: Tube,
     /// The law.
-    pub law: Law,
+    pub law: RubberLaw,
     /// Largest twist, rad/m.
     pub twist: f64,
     /// Axial stretch of the rod that is held.
@@ -47,11 +47,11 @@ pub struct TwistedRod {
 }
 
 impl TwistedRod {
-    pub(crate) const fn held(&self) -> Torsion<'_, Law> {
+    pub(crate) const fn held(&self) -> Torsion<'_, RubberLaw> {
         Torsion { tube: self.tube, law: &self.law, ends: Ends::Stretch(self.axial_stretch) }
     }
 
-    pub(crate) const fn pulled(&self) -> Torsion<'_, Law> {
+    pub(crate) const fn pulled(&self) -> Torsion<'_, RubberLaw> {
         Torsion { tube: self.tube, law: &self.law, ends: Ends::Force(self.axial_force) }
     }
 

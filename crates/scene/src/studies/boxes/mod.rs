@@ -8,8 +8,8 @@ mod results;
 mod tables;
 
 pub use piola_studies::boxes::{
-    BoxFields, BoxFindings, BoxStudy, FlowHistory, FlowInstant, FlowTask, Form, Found, Load, MOST_BYTES, MOST_STEPS,
-    MotionHistory, MotionInstant, MotionTask, Probe, Start, StaticField, StaticTask, Task, resolved,
+    BoxCheckpoint, BoxFields, BoxFindings, BoxStudy, FlowHistory, FlowInstant, FlowTask, Form, Found, Load, MOST_BYTES,
+    MOST_STEPS, MotionHistory, MotionInstant, MotionTask, Probe, Start, StaticField, StaticTask, Task, resolved,
 };
 
 pub(super) use plan::plan;

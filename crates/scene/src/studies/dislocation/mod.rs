@@ -5,7 +5,7 @@ mod figure;
 mod plan;
 mod results;
 
-pub use piola_studies::dislocation::{BurgersCircuits, Circuit, ScrewDislocations, Screws, TorsionAt};
+pub use piola_studies::dislocation::{BurgersCircuit, BurgersCircuits, ScrewDislocations, Screws, TorsionAt};
 
 pub(super) use figure::file;
 pub(super) use plan::plan;

@@ -4,7 +4,7 @@ use super::{Layer, LayeredTube, Layers};
 use crate::model::Builder;
 use piola_document::Mistake;
 use piola_document::Record;
-use piola_studies::internal::{HeldTube, Refusal};
+use piola_studies::internal::{HeldTube, PressureRefusal};
 
 impl Builder<'_> {
     pub(in crate::studies) fn layered_tube(&mut self, scene: &Record, table: &Record) -> Option<LayeredTube> {
@@ -56,9 +56,9 @@ fn layer(record: &Record) -> Option<Layer> {
     Some(Layer { thickness: record.number("thickness")?, growth })
 }
 
-fn refused(table: &Record, name: &str, pressure: f64, refusal: &Refusal) -> Mistake {
+fn refused(table: &Record, name: &str, pressure: f64, refusal: &PressureRefusal) -> Mistake {
     match refusal {
-        Refusal::Beyond { most, stretch, is_end: false } => Mistake::new(
+        PressureRefusal::Beyond { most, stretch, is_end: false } => Mistake::new(
             table.place_of("inner_pressure"),
             format!(
                 "{name} does not carry {pressure} Pa: it is beyond the limit point {most:.6e} Pa, at the stretch \
@@ -66,12 +66,12 @@ fn refused(table: &Record, name: &str, pressure: f64, refusal: &Refusal) -> Mist
             ),
         )
         .valid(format!("at most {most:.6e} Pa")),
-        Refusal::Beyond { most, stretch, is_end: true } => Mistake::new(
+        PressureRefusal::Beyond { most, stretch, is_end: true } => Mistake::new(
             table.place_of("inner_pressure"),
             format!("{name} does not carry {pressure} Pa up to the stretch {stretch}: it comes to {most:.6e} Pa"),
         )
         .valid(format!("at most {most:.6e} Pa, or a larger `stretch`")),
-        Refusal::Refused(error) => {
+        PressureRefusal::Refused(error) => {
             Mistake::new(table.place_of("stretch"), format!("{name}: {error}")).valid("a smaller largest stretch")
         }
     }

@@ -5,7 +5,7 @@ mod figure;
 mod plan;
 mod results;
 
-pub use piola_studies::room::{Arrivals, Loss, Outline, Room, Speed};
+pub use piola_studies::room::{Arrivals, LossOfInvertibility, Outline, Room, Speed};
 
 pub(super) use figure::file;
 pub(super) use plan::plan;

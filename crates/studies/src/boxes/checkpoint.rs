@@ -1,0 +1,180 @@
+//! Motions and flows on a box that can be continued.
+
+use piola_simulation::SimulationError;
+use piola_simulation::internal::Marks;
+use piola_spectral::{BoxSolver, ModalMotion, ModalSeries, SpectralError, ViscousFlow};
+use serde::{Deserialize, Serialize};
+
+use super::form::indices;
+use super::{BoxFields, BoxStudy, FlowHistory, FlowInstant, FlowTask, MotionHistory, MotionInstant, MotionTask, Task};
+
+/// What a motion or a flow on a box goes on from, with what it has recorded.
+///
+/// # Example
+/// See [`BoxStudy::run_with_checkpoints`].
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoxCheckpoint {
+    marks: Marks,
+    /// The fingerprint of the body.
+    fingerprint: Marks,
+    pub(super) body: Body,
+}
+
+/// What a run goes on from.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) enum Body {
+    Motion(MotionBody),
+    Flow(FlowBody),
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MotionBody {
+    time: f64,
+    steps: usize,
+    /// The amplitudes of the modes, components together.
+    displacement: Vec<f64>,
+    velocity: Vec<f64>,
+    /// Time, kinetic and elastic energy and the displacements of the probes of each instant.
+    instants: Vec<Vec<f64>>,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FlowBody {
+    time: f64,
+    step: f64,
+    /// The displacements of each piece of the map, with its least Jacobian.
+    pieces: Vec<(Vec<Vec<f64>>, f64)>,
+    instants: Vec<FlowInstant>,
+}
+
+impl BoxCheckpoint {
+    pub(super) fn new<const D: usize>(fields: &BoxFields<D>, body: Body) -> Self {
+        Self { marks: fields.marks(), fingerprint: Marks::of_run(format_args!("{body:?}")), body }
+    }
+
+    /// Time reached, s.
+    #[must_use]
+    pub const fn time(&self) -> f64 {
+        match &self.body {
+            Body::Motion(body) => body.time,
+            Body::Flow(body) => body.time,
+        }
+    }
+
+    /// Checks that the checkpoint is of this study and is as it was made.
+    ///
+    /// # Errors
+    /// [`SimulationError`]: it is of another study or another version, or it was changed.
+    pub fn check(&self, study: &BoxStudy) -> Result<(), SimulationError> {
+        self.marks.check(match study {
+            BoxStudy::Rectangle(fields) => fields.marks(),
+            BoxStudy::Box(fields) => fields.marks(),
+        })?;
+        let fingerprint = Marks::of_run(format_args!("{:?}", self.body));
+        self.fingerprint.check(fingerprint).map_err(|_| SimulationError::CheckpointChanged)
+    }
+}
+
+impl BoxStudy {
+    /// Whether a run leaves checkpoints: motions and flows do, equilibrium is found at once.
+    #[must_use]
+    pub const fn has_checkpoints(&self) -> bool {
+        match self {
+            Self::Rectangle(fields) => !matches!(fields.task, Task::Static(_)),
+            Self::Box(fields) => !matches!(fields.task, Task::Static(_)),
+        }
+    }
+}
+
+impl<const D: usize> BoxFields<D> {
+    /// The marks of a run, by all that its record depends on.
+    fn marks(&self) -> Marks {
+        Marks::of_run(format_args!("{self:?}"))
+    }
+}
+
+fn amplitudes<const D: usize>(series: &ModalSeries<D>) -> Vec<f64> {
+    indices(series.highest()).flat_map(|indices| series.amplitudes(indices)).collect()
+}
+
+/// The components of a place or a displacement.
+fn components<const D: usize>(list: &[f64]) -> [f64; D] {
+    core::array::from_fn(|axis| list.get(axis).copied().unwrap_or(f64::NAN))
+}
+
+fn series<const D: usize>(
+    fields: &BoxFields<D>,
+    highest: [usize; D],
+    amplitudes: &[f64],
+) -> Result<ModalSeries<D>, SpectralError> {
+    let mut series = ModalSeries::zeros(fields.sides, fields.walls, highest)?;
+    for (indices, amplitudes) in indices(highest).zip(amplitudes.chunks(D)) {
+        series.set_amplitudes(indices, components(amplitudes))?;
+    }
+    Ok(series)
+}
+
+impl MotionBody {
+    pub(super) fn of<const D: usize>(motion: &ModalMotion<D>, found: &MotionHistory<D>, time: f64) -> Self {
+        let row = |instant: &MotionInstant<D>| {
+            let numbers = [instant.time, instant.kinetic_energy, instant.elastic_energy];
+            numbers.into_iter().chain(instant.displacements.iter().flatten().copied()).collect()
+        };
+        Self {
+            time,
+            steps: found.steps,
+            displacement: amplitudes(motion.displacement()),
+            velocity: amplitudes(motion.velocity()),
+            instants: found.instants.iter().map(row).collect(),
+        }
+    }
+
+    /// Displacement, velocity and time; what was recorded goes to the history.
+    pub(super) fn restore<const D: usize>(
+        self,
+        fields: &BoxFields<D>,
+        task: &MotionTask<D>,
+        found: &mut MotionHistory<D>,
+    ) -> Result<([ModalSeries<D>; 2], f64), SpectralError> {
+        found.steps = self.steps;
+        let instant = |row: &Vec<f64>| MotionInstant {
+            time: row.first().copied().unwrap_or(f64::NAN),
+            kinetic_energy: row.get(1).copied().unwrap_or(f64::NAN),
+            elastic_energy: row.get(2).copied().unwrap_or(f64::NAN),
+            displacements: row.get(3..).unwrap_or_default().chunks(D).map(components).collect(),
+        };
+        found.instants = self.instants.iter().map(instant).collect();
+        let state = [series(fields, task.modes, &self.displacement)?, series(fields, task.modes, &self.velocity)?];
+        Ok((state, self.time))
+    }
+}
+
+impl FlowBody {
+    pub(super) fn of<const D: usize>(
+        flow: &ViscousFlow<f64, D>,
+        found: &FlowHistory<D>,
+        (time, step): (f64, f64),
+    ) -> Self {
+        let pieces = flow.pieces().map(|(lists, least)| (lists.map(<[f64]>::to_vec).to_vec(), least));
+        Self { time, step, pieces: pieces.collect(), instants: found.instants.clone() }
+    }
+
+    /// The flow, its time and its step; what was recorded goes to the history.
+    pub(super) fn restore<const D: usize>(
+        self,
+        solver: BoxSolver<f64, D>,
+        task: &FlowTask<D>,
+        found: &mut FlowHistory<D>,
+    ) -> Result<(ViscousFlow<f64, D>, f64, f64), SpectralError> {
+        found.instants = self.instants;
+        let pieces = self.pieces.into_iter().map(|(mut lists, least)| {
+            lists.resize(D, Vec::new());
+            let mut lists = lists.into_iter();
+            (core::array::from_fn(|_| lists.next().unwrap_or_default()), least)
+        });
+        Ok((ViscousFlow::from_pieces(solver, task.least_jacobian, pieces)?, self.time, self.step))
+    }
+}
