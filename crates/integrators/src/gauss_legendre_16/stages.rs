@@ -88,7 +88,7 @@ fn last_coefficient(accelerations: &[Stages], size: f64) -> f64 {
     if 0.0 < size { last / (0.125 * size) } else { 0.0 }
 }
 
-/// P_(k+1) = ((2k + 1) x P_k − k P_(k−1))/(k + 1)
+/// `P_(k+1) = ((2k + 1) x P_k − k P_(k−1))/(k + 1)`
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn next_polynomial(k: f64, x: Stages, now: Stages, before: Stages) -> Stages {
     Lanes::splat((2.0 * k + 1.0) / (k + 1.0)) * x * now - Lanes::splat(k / (k + 1.0)) * before
