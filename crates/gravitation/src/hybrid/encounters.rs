@@ -13,6 +13,8 @@ use crate::kepler::Increment;
 use crate::wisdom_holman::planets::{PlanetMasses, Planets};
 use crate::wisdom_holman::run::{Failure, Moment, Near};
 
+/// The name in a checkpoint.
+pub(super) const NAME: &str = "HybridSymplectic";
 /// The numbers of a checkpoint before the critical radii.
 pub(super) const NUMBERS: usize = 7;
 
@@ -176,6 +178,8 @@ fn later(error: Failure, start: f64) -> Failure {
 }
 
 impl<T: Real> Near<T> for Encounters<'_, T> {
+    const NAME: &'static str = NAME;
+
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn weight(&self, first: usize, second: usize, distance: [T; 3]) -> T {
         far(self.sizes.critical(first, second), distance)

@@ -46,9 +46,8 @@ use piola_numerics::Real;
 pub use critical::critical_radii;
 
 use crate::check::check_length;
-use crate::checkpoint::OF_STEPS;
 use crate::wisdom_holman::planets::{PlanetMasses, Planets};
-use crate::wisdom_holman::run::Course;
+use crate::wisdom_holman::run::{Course, OF_STEPS};
 use crate::wisdom_holman::{Splitting, check};
 use crate::{Gravitation, GravitationError};
 use critical::{Sizes, check_radii};
@@ -128,8 +127,6 @@ pub struct ClosestApproach {
     pub t: f64,
 }
 
-/// The name in a checkpoint.
-const NAME: &str = "HybridSymplectic";
 /// Default critical radius, in Hill radii.
 const HILL_RADII: f64 = 3.0;
 
@@ -280,7 +277,7 @@ impl HybridSymplectic {
         let sizes = if let Some(checkpoint) = resumed {
             let n = bodies.bodies();
             let lengths = [Planets::<T>::numbers(n), OF_STEPS + encounters::NUMBERS + n];
-            checkpoint.open(NAME, lengths, &[], &mut state.clone(), |_| Ok(()))?;
+            checkpoint.open(encounters::NAME, lengths, &[], &mut state.clone(), |_| Ok(()))?;
             // Radii are part of the Hamiltonian: those of the start.
             let critical = checkpoint.memory().1[OF_STEPS + encounters::NUMBERS..].to_vec();
             Sizes { critical, radii: self.radii.clone().unwrap_or_default(), least: self.least_distance }
@@ -288,7 +285,7 @@ impl HybridSymplectic {
             self.sizes(bodies, state).map_err(at_start(state.time))?
         };
         let mut near = Encounters::new(&PlanetMasses::new(bodies.parameters()), &sizes);
-        let kept = self.course.integrate(NAME, &mut near, bodies, resumed, (state, end), shown, observer)?;
+        let kept = self.course.integrate(&mut near, bodies, resumed, (state, end), shown, observer)?;
         let mut run = kept.report();
         run.evaluations += near.evaluations;
         Ok((HybridReport { run, encounter_steps: near.steps, closest: near.closest }, kept))

@@ -64,9 +64,6 @@ pub struct DemocraticHeliocentric {
     course: Course,
 }
 
-/// The name in a checkpoint.
-const NAME: &str = "DemocraticHeliocentric";
-
 impl DemocraticHeliocentric {
     /// The map with steps no longer than `step` (s).
     ///
@@ -123,7 +120,7 @@ impl DemocraticHeliocentric {
         shown: u64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<GravitationError>> {
-        Ok(self.course.integrate(NAME, &mut Nowhere, bodies, None, (state, end), shown, observer)?.report())
+        Ok(self.course.integrate(&mut Nowhere, bodies, None, (state, end), shown, observer)?.report())
     }
 
     /// Integrates as [`integrate`](Self::integrate). Returns also the run where it ended or where the observer stopped it, which
@@ -139,7 +136,7 @@ impl DemocraticHeliocentric {
         shown: u64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<(Report, Checkpoint<T>), IntegratorsError<GravitationError>> {
-        let kept = self.course.integrate(NAME, &mut Nowhere, bodies, None, (state, end), shown, observer)?;
+        let kept = self.course.integrate(&mut Nowhere, bodies, None, (state, end), shown, observer)?;
         Ok((kept.report(), kept))
     }
 
@@ -159,8 +156,7 @@ impl DemocraticHeliocentric {
         shown: u64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<(Report, Checkpoint<T>), IntegratorsError<GravitationError>> {
-        let kept =
-            self.course.integrate(NAME, &mut Nowhere, bodies, Some(checkpoint), (state, end), shown, observer)?;
+        let kept = self.course.integrate(&mut Nowhere, bodies, Some(checkpoint), (state, end), shown, observer)?;
         Ok((kept.report(), kept))
     }
 }
@@ -169,6 +165,8 @@ impl DemocraticHeliocentric {
 struct Nowhere;
 
 impl<T: Real> Near<T> for Nowhere {
+    const NAME: &'static str = "DemocraticHeliocentric";
+
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn weight(&self, first: usize, second: usize, distance: [T; 3]) -> T {
         whole(first, second, distance)

@@ -53,11 +53,10 @@ pub use splitting::{Corrector, Splitting};
 
 use crate::attraction::LANES;
 use crate::check::{check_finite, check_length};
-use crate::checkpoint::{checkpoint, open};
 use crate::{Gravitation, GravitationError};
 use alternation::Parts;
 use jacobi::{Coordinates, Masses};
-use run::Course;
+use run::{Course, checkpoint, open};
 use steps::{Memory, Moving};
 
 /// The map of Wisdom and Holman with a fixed step.

@@ -1,5 +1,6 @@
 //! A run in democratic heliocentric coordinates, with or without close encounters.
 
+use core::convert::Infallible;
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::equal_steps;
@@ -9,7 +10,7 @@ use piola_numerics::Real;
 use super::alternation::Parts;
 use super::planets::{PlanetMasses, Planets};
 use super::{Splitting, check};
-use crate::checkpoint::{OF_STEPS, checkpoint, open};
+use crate::checkpoint::whole;
 use crate::kepler::Increment;
 use crate::{Gravitation, GravitationError};
 
@@ -18,6 +19,9 @@ pub(crate) type Failure = IntegratorsError<GravitationError>;
 
 /// Treatment of planets that come near each other.
 pub(crate) trait Near<T> {
+    /// The name of the method in a checkpoint.
+    const NAME: &'static str;
+
     /// |d|⁻³ times the part of an attraction between two planets that Kepler's motions leave out.
     fn weight(&self, first: usize, second: usize, distance: [T; 3]) -> T;
 
@@ -114,11 +118,10 @@ impl Course {
         Ok(EqualSteps { start, end, before: 0, count, length })
     }
 
-    /// Integrates to `end` in equal steps; from a checkpoint of `method` if there is one. The observer sees every `shown`-th step and
+    /// Integrates to `end` in equal steps; from a checkpoint if there is one. The observer sees every `shown`-th step and
     /// the last. Returns the run where it ends.
     pub(crate) fn integrate<T: Real, N: Near<T>>(
         self,
-        method: &'static str,
         near: &mut N,
         bodies: &Gravitation,
         resumed: Option<&Checkpoint<T>>,
@@ -129,7 +132,7 @@ impl Course {
         let lengths = [Planets::<T>::numbers(bodies.bodies()), near.saved().len()];
         let (steps, saved) = match resumed {
             None => (self.begin(bodies, state, end)?, None),
-            Some(checkpoint) => open(checkpoint, method, lengths, self, bodies, state, end)?,
+            Some(checkpoint) => open(checkpoint, N::NAME, lengths, self, bodies, state, end)?,
         };
         let mut report = resumed.map_or(Report::begin(), |checkpoint| checkpoint.report().continued());
         if let Some(checkpoint) = resumed {
@@ -137,7 +140,7 @@ impl Course {
             near.restore(&checkpoint.memory().1[OF_STEPS..]);
         }
         if steps.count == report.steps {
-            return Ok(checkpoint(method, &steps, state, report, None, lengths[0], &near.saved()));
+            return Ok(checkpoint(N::NAME, &steps, state, report, None, lengths[0], &near.saved()));
         }
         let (count, h) = (steps.count, steps.length);
         let mut run = Run::new(near, bodies.parameters(), &state.values, h, self.splitting);
@@ -189,11 +192,61 @@ impl Course {
         match failure {
             None => {
                 let memory = run.is_ahead.then(|| run.planets.saved());
-                Ok(checkpoint(method, &steps, state, report, memory, lengths[0], &run.near.saved()))
+                Ok(checkpoint(N::NAME, &steps, state, report, memory, lengths[0], &run.near.saved()))
             }
             Some(error) => Err(error),
         }
     }
+}
+
+/// The numbers that all maps keep: when the steps began, their length, how many are made, and whether the memory continues them.
+pub(crate) const OF_STEPS: usize = 4;
+
+/// A checkpoint after `report.steps` of the steps; without a memory the run begins anew from the state.
+pub(crate) fn checkpoint<T: Real>(
+    method: &'static str,
+    steps: &EqualSteps,
+    state: &State<T>,
+    report: Report,
+    memory: Option<Vec<T>>,
+    length: usize,
+    others: &[f64],
+) -> Checkpoint<T> {
+    let made = (report.steps - steps.before) as f64;
+    let of_steps = [steps.start, steps.length, made, f64::from(u8::from(memory.is_some()))];
+    let memory = memory.unwrap_or_else(|| vec![T::zero(); length]);
+    Checkpoint::of(method, state.clone(), report, memory, [&of_steps[..], others].concat())
+}
+
+/// The steps of a run that goes on to `end`, and its memory if they are those of the checkpoint. The state becomes that of the checkpoint.
+pub(crate) fn open<'a, T: Real>(
+    checkpoint: &'a Checkpoint<T>,
+    method: &'static str,
+    [memory, others]: [usize; 2],
+    course: Course,
+    bodies: &Gravitation,
+    state: &mut State<T>,
+    end: f64,
+) -> Result<(EqualSteps, Option<&'a [T]>), Failure> {
+    checkpoint.open(method, [memory, OF_STEPS + others], &[], state, |state| {
+        let t = state.time;
+        check(bodies, &state.values).map_err(|source| IntegratorsError::Field { t, source })
+    })?;
+    let (memory, numbers) = checkpoint.memory();
+    let report = checkpoint.report();
+    let [start, length, made, continues] = [numbers[0], numbers[1], numbers[2], numbers[3]];
+    if 0.0 < continues
+        && end.is_finite()
+        && let Ok((count, h)) = equal_steps::<Infallible>(start, end, course.step)
+        && h.to_bits() == length.to_bits()
+        && made < count as f64
+    {
+        let before = report.steps.saturating_sub(whole(made));
+        return Ok((EqualSteps { start, end, count: before + count, length, before }, Some(memory)));
+    }
+    let steps = course.begin(bodies, state, end)?;
+    let before = report.steps;
+    Ok((EqualSteps { count: before + steps.count, before, ..steps }, None))
 }
 
 /// A run: between steps it stands after the first motion of the next one, at last at the end of the last one.
