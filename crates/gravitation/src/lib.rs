@@ -29,6 +29,7 @@
 
 mod attraction;
 mod check;
+mod checkpoint;
 mod error;
 mod field;
 #[cfg(feature = "glam")]

@@ -11,7 +11,8 @@ use crate::{IntegratorsError, Report, State};
 ///
 /// The observer of an adaptive method takes it from the step, as below. For [`GaussLegendre`](crate::GaussLegendre),
 /// [`ProcessedSplitting`](crate::ProcessedSplitting) and the methods of `piola-geometric`, stop the run in the observer; then call
-/// `method.checkpoint(&state, report)`.
+/// `method.checkpoint(&state, report)`. The methods of `piola-gravitation` for planets and collisions return it from
+/// `integrate_to_checkpoint`.
 ///
 /// # Example
 /// ```
@@ -62,9 +63,10 @@ pub(crate) struct MethodName(&'static str);
 #[cfg(feature = "serde")]
 impl<'de> serde::Deserialize<'de> for MethodName {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Those of this crate and of `piola-geometric`.
-        const ALL: [&str; 16] = [
+        /// Those of this crate, of `piola-geometric` and of `piola-gravitation`.
+        const ALL: [&str; 20] = [
             "AdaptiveMuntheKaas",
+            "DemocraticHeliocentric",
             "DiscreteEulerLagrange",
             "DiscreteGradient",
             "DormandPrince853",
@@ -73,13 +75,16 @@ impl<'de> serde::Deserialize<'de> for MethodName {
             "GaussLegendre16",
             "GaussRadau15",
             "GeneralisedAlpha",
+            "HybridSymplectic",
             "LobattoPair",
             "Nystrom1210",
             "Nystrom86",
             "ProcessedSplitting",
+            "Regularised",
             "ReversibleComposition",
             "VariationalIntegrator",
             "Verner98",
+            "WisdomHolman",
         ];
         let read: String = serde::Deserialize::deserialize(deserializer)?;
         let known = ALL.into_iter().find(|&name| name == read).map(Self);

@@ -26,7 +26,8 @@ use crate::turn::{Turning, wrench_to_parent};
 use crate::workspace::{LinkArticulation, TreeWorkspace};
 
 impl RigidTree {
-    /// The accelerations under generalised forces: forward dynamics, in time proportional to the links.
+    /// The accelerations under generalised forces: forward dynamics, in time proportional to the links. It is the faster of both ways at
+    /// every size that was measured, 1 to 100 freedoms (example `two_ways`).
     ///
     /// ```text
     /// v̇ = M(q)⁻¹ (τ − b(q, v))
@@ -39,9 +40,8 @@ impl RigidTree {
     /// | v̇ | `out` | [`freedoms`](Self::freedoms) | m/s², rad/s² |
     ///
     /// # Errors
-    /// [`MultibodyError::WrongLength`], [`MultibodyError::NotFinite`], [`MultibodyError::NotUnitQuaternion`],
-    /// [`MultibodyError::OtherWorkspace`]; [`MultibodyError::NoInertia`] or [`MultibodyError::TooLightBody`] unless
-    /// every reduced inertia is positive.
+    /// [`MultibodyError::WrongLength`], [`MultibodyError::NotFinite`], [`MultibodyError::NotUnitQuaternion`], [`MultibodyError::OtherWorkspace`];
+    /// [`MultibodyError::NoInertia`] or [`MultibodyError::TooLightBody`] unless every reduced inertia is positive.
     ///
     /// # Accuracy
     /// A few ulp times the condition number of the mass matrix: see the page on accuracy.

@@ -8,9 +8,15 @@ use super::critical::Sizes;
 use super::paths::Arc;
 use super::together::{Together, far};
 use super::watch::{Findings, Watch};
+use crate::checkpoint::whole;
 use crate::kepler::Increment;
 use crate::wisdom_holman::planets::{PlanetMasses, Planets};
 use crate::wisdom_holman::run::{Failure, Moment, Near};
+
+/// The name in a checkpoint.
+pub(super) const NAME: &str = "HybridSymplectic";
+/// The numbers of a checkpoint before the critical radii.
+pub(super) const NUMBERS: usize = 7;
 
 /// The planets that come near each other in a motion.
 #[derive(Debug)]
@@ -172,6 +178,8 @@ fn later(error: Failure, start: f64) -> Failure {
 }
 
 impl<T: Real> Near<T> for Encounters<'_, T> {
+    const NAME: &'static str = NAME;
+
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn weight(&self, first: usize, second: usize, distance: [T; 3]) -> T {
         far(self.sizes.critical(first, second), distance)
@@ -221,5 +229,26 @@ impl<T: Real> Near<T> for Encounters<'_, T> {
 
     fn end_step(&mut self) {
         self.is_counted = false;
+    }
+
+    /// The last step of the integrator, the counts, the nearest approach, the critical radii.
+    fn saved(&self) -> Vec<f64> {
+        let closest = self.closest.map_or([-1.0, 0.0, 0.0, 0.0], |closest| {
+            [closest.first as f64, closest.second as f64, closest.distance, closest.t]
+        });
+        let counts = [self.last_step, self.steps as f64, self.evaluations as f64];
+        // So many as NUMBERS says, then the radii.
+        [&counts[..], &closest, &self.sizes.critical].concat()
+    }
+
+    fn restore(&mut self, saved: &[f64]) {
+        let [last_step, steps, evaluations, first, second, distance, t, ..] = *saved else { return };
+        self.last_step = last_step;
+        (self.steps, self.evaluations) = (whole(steps), whole(evaluations));
+        let index = |value: f64| usize::try_from(whole(value)).unwrap_or(usize::MAX);
+        self.closest = (0.0 <= first).then(|| {
+            let (first, second) = (index(first), index(second));
+            ClosestApproach { first, second, distance, t }
+        });
     }
 }

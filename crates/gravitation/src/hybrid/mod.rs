@@ -40,14 +40,14 @@ mod watch;
 
 use core::ops::ControlFlow;
 
-use piola_integrators::{IntegratorsError, Report, State, Step, unobserved};
+use piola_integrators::{Checkpoint, IntegratorsError, Report, State, Step, unobserved};
 use piola_numerics::Real;
 
 pub use critical::critical_radii;
 
 use crate::check::check_length;
-use crate::wisdom_holman::planets::PlanetMasses;
-use crate::wisdom_holman::run::Course;
+use crate::wisdom_holman::planets::{PlanetMasses, Planets};
+use crate::wisdom_holman::run::{Course, OF_STEPS};
 use crate::wisdom_holman::{Splitting, check};
 use crate::{Gravitation, GravitationError};
 use critical::{Sizes, check_radii};
@@ -225,29 +225,92 @@ impl HybridSymplectic {
         shown: u64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<HybridReport, IntegratorsError<GravitationError>> {
+        Ok(self.run(bodies, None, state, end, shown, observer)?.0)
+    }
+
+    /// Integrates as [`integrate`](Self::integrate). Returns also the run where it ended or where the observer stopped it, which
+    /// [`resume`](Self::resume) continues.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate).
+    pub fn integrate_to_checkpoint<T: Real>(
+        &self,
+        bodies: &Gravitation,
+        state: &mut State<T>,
+        end: f64,
+        shown: u64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<(HybridReport, Checkpoint<T>), IntegratorsError<GravitationError>> {
+        self.run(bodies, None, state, end, shown, observer)
+    }
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings and bodies: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit. To another end the length of the steps may differ; the
+    /// run then begins anew from the state of the checkpoint, and its report goes on counting. The critical radii are those of the start.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method,
+    /// [`IntegratorsError::WrongLength`] for one of other bodies, [`IntegratorsError::NotFinite`]. The state is then left alone.
+    pub fn resume<T: Real>(
+        &self,
+        bodies: &Gravitation,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        shown: u64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<(HybridReport, Checkpoint<T>), IntegratorsError<GravitationError>> {
+        self.run(bodies, Some(checkpoint), state, end, shown, observer)
+    }
+
+    fn run<T: Real>(
+        &self,
+        bodies: &Gravitation,
+        resumed: Option<&Checkpoint<T>>,
+        state: &mut State<T>,
+        end: f64,
+        shown: u64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<(HybridReport, Checkpoint<T>), IntegratorsError<GravitationError>> {
         const { assert!(T::LANES == 1, "each lane has its own encounters") };
-        let (n, start) = (bodies.bodies(), state.time);
-        let at_start = |source| IntegratorsError::Field { t: start, source };
-        check(bodies, &state.values).map_err(at_start)?;
+        let at_start = |t: f64| move |source| IntegratorsError::Field { t, source };
+        let sizes = if let Some(checkpoint) = resumed {
+            let n = bodies.bodies();
+            let lengths = [Planets::<T>::numbers(n), OF_STEPS + encounters::NUMBERS + n];
+            checkpoint.open(encounters::NAME, lengths, &[], &mut state.clone(), |_| Ok(()))?;
+            // Radii are part of the Hamiltonian: those of the start.
+            let critical = checkpoint.memory().1[OF_STEPS + encounters::NUMBERS..].to_vec();
+            Sizes { critical, radii: self.radii.clone().unwrap_or_default(), least: self.least_distance }
+        } else {
+            self.sizes(bodies, state).map_err(at_start(state.time))?
+        };
+        let mut near = Encounters::new(&PlanetMasses::new(bodies.parameters()), &sizes);
+        let kept = self.course.integrate(&mut near, bodies, resumed, (state, end), shown, observer)?;
+        let mut run = kept.report();
+        run.evaluations += near.evaluations;
+        Ok((HybridReport { run, encounter_steps: near.steps, closest: near.closest }, kept))
+    }
+
+    /// The radii of a run from a state.
+    fn sizes<T: Real>(&self, bodies: &Gravitation, state: &State<T>) -> Result<Sizes, GravitationError> {
+        let n = bodies.bodies();
+        check(bodies, &state.values)?;
         let critical = if let Some(critical) = &self.critical {
             critical.clone()
         } else {
             let values: Vec<f64> = state.values.iter().map(|x| x.primal(0)).collect();
-            critical_radii(bodies, &values, HILL_RADII, self.course.longest_attraction()).map_err(at_start)?
+            critical_radii(bodies, &values, HILL_RADII, self.course.longest_attraction())?
         };
         let radii = self.radii.clone().unwrap_or_default();
         let mut sizes = Sizes { critical, radii, least: self.least_distance };
-        check_length("critical radii", n, sizes.critical.len()).map_err(at_start)?;
+        check_length("critical radii", n, sizes.critical.len())?;
         if self.radii.is_some() {
-            check_length("radii", n, sizes.radii.len()).map_err(at_start)?;
+            check_length("radii", n, sizes.radii.len())?;
             // Bodies that touch are near each other.
             for (critical, radius) in sizes.critical.iter_mut().zip(&sizes.radii) {
                 *critical = critical.max(2.0 * radius);
             }
         }
-        let mut near = Encounters::new(&PlanetMasses::new(bodies.parameters()), &sizes);
-        let mut run = self.course.integrate(&mut near, bodies, state, end, shown, observer)?;
-        run.evaluations += near.evaluations;
-        Ok(HybridReport { run, encounter_steps: near.steps, closest: near.closest })
+        Ok(sizes)
     }
 }

@@ -30,6 +30,27 @@ const FIRST: usize = 2;
 const LAST: usize = ROWS - 2;
 
 impl Aim {
+    /// The rows that can be aimed at.
+    pub(super) const ROWS_AIMED_AT: [usize; LAST - FIRST + 1] = {
+        let mut rows = [FIRST; LAST - FIRST + 1];
+        let mut row = FIRST;
+        while row <= LAST {
+            rows[row - FIRST] = row;
+            row += 1;
+        }
+        rows
+    };
+
+    /// As it was saved: with what each row found, the best step and the work.
+    pub(super) const fn of(row: usize, step: f64, steps: [f64; ROWS], work: [f64; ROWS]) -> Self {
+        Self { row, step, steps, work }
+    }
+
+    /// What each row found.
+    pub(super) const fn found(&self) -> ([f64; ROWS], [f64; ROWS]) {
+        (self.steps, self.work)
+    }
+
     pub(super) fn new(tolerance: f64, step: f64) -> Self {
         // Two digits a row.
         let row = (-0.6 * tolerance.log10()).clamp(FIRST as f64, LAST as f64);

@@ -37,11 +37,12 @@
 mod chain;
 mod extrapolation;
 mod leapfrog;
+mod saved;
 
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::compensated_add;
-use piola_integrators::{Ending, IntegratorsError, Report, State, Step, Tolerance, unobserved};
+use piola_integrators::{Checkpoint, Ending, IntegratorsError, Report, State, Step, Tolerance, unobserved};
 use piola_numerics::Real;
 
 use crate::check::{check_finite, check_length};
@@ -121,20 +122,77 @@ impl Regularised {
         bodies: &Gravitation,
         state: &mut State<T>,
         end: f64,
-        mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<GravitationError>> {
+        Ok(self.run(bodies, None, state, end, observer)?.0)
+    }
+
+    /// Integrates as [`integrate`](Self::integrate). Returns also the run where it ended or where the observer stopped it, which
+    /// [`resume`](Self::resume) continues.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate).
+    pub fn integrate_to_checkpoint<T: Real>(
+        &self,
+        bodies: &Gravitation,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<(Report, Checkpoint<T>), IntegratorsError<GravitationError>> {
+        self.run(bodies, None, state, end, observer)
+    }
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings and bodies: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit. It goes on to any other end in the same direction; the
+    /// other way it begins anew from the state of the checkpoint.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method,
+    /// [`IntegratorsError::WrongLength`] for one of other bodies, [`IntegratorsError::NotFinite`], [`IntegratorsError::InvalidRow`] where
+    /// its chain is none. The state is then left alone.
+    pub fn resume<T: Real>(
+        &self,
+        bodies: &Gravitation,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<(Report, Checkpoint<T>), IntegratorsError<GravitationError>> {
+        self.run(bodies, Some(checkpoint), state, end, observer)
+    }
+
+    fn run<T: Real>(
+        &self,
+        bodies: &Gravitation,
+        resumed: Option<&Checkpoint<T>>,
+        state: &mut State<T>,
+        end: f64,
+        mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<(Report, Checkpoint<T>), IntegratorsError<GravitationError>> {
         const { assert!(T::LANES == 1, "each lane has its own time") };
-        let start = state.time;
-        check(bodies, &state.values).map_err(|source| IntegratorsError::Field { t: start, source })?;
+        let of_bodies = |state: &State<T>| {
+            check(bodies, &state.values).map_err(|source| IntegratorsError::Field { t: state.time, source })
+        };
+        match resumed {
+            None => of_bodies(state)?,
+            Some(checkpoint) => saved::check(checkpoint, bodies.bodies(), state, of_bodies)?,
+        }
         if !end.is_finite() {
             return Err(IntegratorsError::NotFinite { quantity: "end", index: 0, value: end, t: None });
         }
-        let mut report = Report::begin();
-        let span = end - start;
-        if span.abs() <= 0.0 {
-            return Ok(report);
+        let mut report = resumed.map_or(Report::begin(), |checkpoint| checkpoint.report().continued());
+        let direction = (end - state.time).signum();
+        let mut start = state.time;
+        let mut run = Run::new(bodies, &state.values, self.tolerance, direction);
+        if let Some(checkpoint) = resumed
+            && let Some(begun) = run.restore(checkpoint, direction)
+        {
+            start = begun;
         }
-        let mut run = Run::new(bodies, &state.values, self.tolerance, span.signum());
+        let span = end - start;
+        if (end - state.time).abs() <= 0.0 {
+            return Ok((report, run.checkpoint(start, state, report)));
+        }
         let mut values = state.values.clone();
         let error = loop {
             if report.steps == self.most_steps {
@@ -151,7 +209,7 @@ impl Regularised {
             if is_last || is_stopped {
                 report.ending = if is_stopped { Ending::Stopped } else { Ending::Reached };
                 *state = State::new(time, values).map_err(IntegratorsError::with_field_error)?;
-                return Ok(report);
+                return Ok((report, run.checkpoint(start, state, report)));
             }
         };
         run.write(&mut values);

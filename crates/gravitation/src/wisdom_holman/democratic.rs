@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use piola_integrators::{IntegratorsError, Report, State, Step, unobserved};
+use piola_integrators::{Checkpoint, IntegratorsError, Report, State, Step, unobserved};
 use piola_numerics::Real;
 
 use super::Splitting;
@@ -120,7 +120,44 @@ impl DemocraticHeliocentric {
         shown: u64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<GravitationError>> {
-        self.course.integrate(&mut Nowhere, bodies, state, end, shown, observer)
+        Ok(self.course.integrate(&mut Nowhere, bodies, None, (state, end), shown, observer)?.report())
+    }
+
+    /// Integrates as [`integrate`](Self::integrate). Returns also the run where it ended or where the observer stopped it, which
+    /// [`resume`](Self::resume) continues.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate).
+    pub fn integrate_to_checkpoint<T: Real>(
+        &self,
+        bodies: &Gravitation,
+        state: &mut State<T>,
+        end: f64,
+        shown: u64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<(Report, Checkpoint<T>), IntegratorsError<GravitationError>> {
+        let kept = self.course.integrate(&mut Nowhere, bodies, None, (state, end), shown, observer)?;
+        Ok((kept.report(), kept))
+    }
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings and bodies: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit. To another end the length of the steps may differ; the
+    /// run then begins anew from the state of the checkpoint, and its report goes on counting.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method,
+    /// [`IntegratorsError::WrongLength`] for one of other bodies, [`IntegratorsError::NotFinite`]. The state is then left alone.
+    pub fn resume<T: Real>(
+        &self,
+        bodies: &Gravitation,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        shown: u64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<(Report, Checkpoint<T>), IntegratorsError<GravitationError>> {
+        let kept = self.course.integrate(&mut Nowhere, bodies, Some(checkpoint), (state, end), shown, observer)?;
+        Ok((kept.report(), kept))
     }
 }
 
@@ -128,6 +165,8 @@ impl DemocraticHeliocentric {
 struct Nowhere;
 
 impl<T: Real> Near<T> for Nowhere {
+    const NAME: &'static str = "DemocraticHeliocentric";
+
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn weight(&self, first: usize, second: usize, distance: [T; 3]) -> T {
         whole(first, second, distance)

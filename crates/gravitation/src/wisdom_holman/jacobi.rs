@@ -3,6 +3,7 @@
 use piola_numerics::Lanes;
 
 use crate::attraction::{Block, LANES};
+use crate::checkpoint::take;
 
 pub(super) type Numbers = Lanes<f64, LANES>;
 
@@ -138,6 +139,33 @@ impl Coordinates {
             centre_of_mass[kind][axis] = centre;
         }
         Self { groups, centre_of_mass }
+    }
+
+    /// How many numbers a state in so many groups is saved in.
+    pub(super) const fn numbers(groups: usize) -> usize {
+        12 * LANES * groups + 6
+    }
+
+    /// All numbers of the state, for a checkpoint.
+    pub(super) fn saved(&self) -> Vec<f64> {
+        let groups = self.groups.iter().flat_map(|group| {
+            let blocks = [group.position, group.position_carry, group.velocity, group.velocity_carry];
+            blocks.into_iter().flatten().flat_map(|lanes| lanes.0)
+        });
+        groups.chain(self.centre_of_mass.into_iter().flatten()).collect()
+    }
+
+    /// Takes back what was saved of the same bodies.
+    pub(super) fn restore(&mut self, mut saved: &[f64]) {
+        for group in &mut self.groups {
+            let Group { position, position_carry, velocity, velocity_carry } = group;
+            for lanes in [position, position_carry, velocity, velocity_carry].into_iter().flatten() {
+                lanes.0 = take(&mut saved).unwrap_or(lanes.0);
+            }
+        }
+        for triple in &mut self.centre_of_mass {
+            *triple = take(&mut saved).unwrap_or(*triple);
+        }
     }
 
     /// Becomes `other`, of the same bodies, without a new allocation.

@@ -45,17 +45,18 @@ mod steps;
 
 use core::ops::ControlFlow;
 
-use piola_integrators::{Ending, IntegratorsError, Report, State, Step, unobserved};
+use piola_integrators::{Checkpoint, Ending, IntegratorsError, Report, State, Step, unobserved};
 use piola_numerics::Real;
 
 pub use democratic::DemocraticHeliocentric;
 pub use splitting::{Corrector, Splitting};
 
+use crate::attraction::LANES;
 use crate::check::{check_finite, check_length};
 use crate::{Gravitation, GravitationError};
 use alternation::Parts;
 use jacobi::{Coordinates, Masses};
-use run::Course;
+use run::{Course, checkpoint, open};
 use steps::{Memory, Moving};
 
 /// The map of Wisdom and Holman with a fixed step.
@@ -74,6 +75,8 @@ pub struct WisdomHolman {
     course: Course,
 }
 
+/// The name in a checkpoint.
+const NAME: &str = "WisdomHolman";
 /// Steps between two looks for numbers that are not finite.
 const UNWATCHED: u64 = 256;
 
@@ -131,16 +134,91 @@ impl WisdomHolman {
         state: &mut State,
         end: f64,
         shown: u64,
-        mut observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
+        observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<GravitationError>> {
-        let steps = self.course.begin(bodies, state, end)?;
-        let mut report = Report::begin();
-        if steps.count == 0 {
-            return Ok(report);
+        Ok(self.run(bodies, None, state, end, shown, observer)?.report())
+    }
+
+    /// Integrates as [`integrate`](Self::integrate). Returns also the run where it ended or where the observer stopped it, which
+    /// [`resume`](Self::resume) continues.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate).
+    pub fn integrate_to_checkpoint(
+        &self,
+        bodies: &Gravitation,
+        state: &mut State,
+        end: f64,
+        shown: u64,
+        observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
+    ) -> Result<(Report, Checkpoint), IntegratorsError<GravitationError>> {
+        let kept = self.run(bodies, None, state, end, shown, observer)?;
+        Ok((kept.report(), kept))
+    }
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings and bodies: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit. To another end the length of the steps may differ; the
+    /// run then begins anew from the state of the checkpoint, and its report goes on counting.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method,
+    /// [`IntegratorsError::WrongLength`] for one of other bodies, [`IntegratorsError::NotFinite`]. The state is then left alone.
+    ///
+    /// # Example
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use piola_gravitation::Gravitation;
+    /// use piola_gravitation::wisdom_holman::{Splitting, WisdomHolman};
+    /// use piola_integrators::State;
+    /// let bodies = Gravitation::new(vec![1.0, 1e-3])?;
+    /// let start = bodies.state(&[[0.0; 3], [1.0, 0.0, 0.0]], &[[0.0; 3], [0.0, 1.0, 0.0]])?;
+    /// let method = WisdomHolman::new(0.1, Splitting::Leapfrog)?;
+    /// let mut whole = State::new(0.0, start.clone())?;
+    /// method.integrate_to(&bodies, &mut whole, 100.0)?;
+    /// // The same, stopped after three hundred steps and continued.
+    /// let mut state = State::new(0.0, start)?;
+    /// let (_, kept) = method.integrate_to_checkpoint(&bodies, &mut state, 100.0, 300, |_| ControlFlow::Break(()))?;
+    /// let (report, _) = method.resume(&bodies, &kept, &mut state, 100.0, 0, |_| ControlFlow::Continue(()))?;
+    /// assert_eq!((report.steps, state), (1000, whole));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn resume(
+        &self,
+        bodies: &Gravitation,
+        checkpoint: &Checkpoint,
+        state: &mut State,
+        end: f64,
+        shown: u64,
+        observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
+    ) -> Result<(Report, Checkpoint), IntegratorsError<GravitationError>> {
+        let kept = self.run(bodies, Some(checkpoint), state, end, shown, observer)?;
+        Ok((kept.report(), kept))
+    }
+
+    fn run(
+        &self,
+        bodies: &Gravitation,
+        resumed: Option<&Checkpoint>,
+        state: &mut State,
+        end: f64,
+        shown: u64,
+        mut observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
+    ) -> Result<Checkpoint, IntegratorsError<GravitationError>> {
+        let length = Coordinates::numbers(bodies.bodies().saturating_sub(1).div_ceil(LANES));
+        let (steps, saved) = match resumed {
+            None => (self.course.begin(bodies, state, end)?, None),
+            Some(checkpoint) => open(checkpoint, NAME, [length, 0], self.course, bodies, state, end)?,
+        };
+        let mut report = resumed.map_or(Report::begin(), |checkpoint| checkpoint.report().continued());
+        if steps.count == report.steps {
+            return Ok(checkpoint(NAME, &steps, state, report, None, length, &[]));
         }
         let (count, h, splitting) = (steps.count, steps.length, self.course.splitting);
         let mut run = Run::new(bodies.parameters(), &state.values, h, splitting);
-        run.enter();
+        match saved {
+            None => run.enter(),
+            Some(memory) => run.coordinates.restore(memory),
+        }
         let mut values = state.values.clone();
         while report.steps < count {
             let until_shown = match shown {
@@ -154,7 +232,7 @@ impl WisdomHolman {
             let number = report.steps;
             let is_shown = number == count || (0 < shown && number.is_multiple_of(shown));
             if good < made || is_shown {
-                run.show(h * number as f64, &mut values);
+                run.show(steps.elapsed(number), &mut values);
             }
             if good < made {
                 let t = Some(steps.time(number));
@@ -168,7 +246,7 @@ impl WisdomHolman {
             }
         }
         *state = State::new(steps.time(report.steps), values).map_err(IntegratorsError::with_field_error)?;
-        Ok(report)
+        Ok(checkpoint(NAME, &steps, state, report, Some(run.coordinates.saved()), length, &[]))
     }
 }
 

@@ -8,6 +8,7 @@ use piola_integrators::internal::compensated_add;
 use piola_numerics::{Kernel, Lanes, Mask, Real, dispatch};
 
 use crate::attraction::{LANES, inverse_cube};
+use crate::checkpoint::take;
 use crate::kepler::{Increment, advance};
 
 /// What does not change in a run.
@@ -103,6 +104,32 @@ impl<T: Real> Planets<T> {
             }
         }
         Self { planets, centre_of_mass }
+    }
+
+    /// How many numbers a state of so many bodies is saved in.
+    pub(crate) const fn numbers(bodies: usize) -> usize {
+        12 * bodies.saturating_sub(1) + 6
+    }
+
+    /// All numbers of the state, for a checkpoint.
+    pub(crate) fn saved(&self) -> Vec<T> {
+        let planets = self.planets.iter().flat_map(|planet| {
+            [planet.position, planet.position_carry, planet.velocity, planet.velocity_carry].into_iter().flatten()
+        });
+        planets.chain(self.centre_of_mass.into_iter().flatten()).collect()
+    }
+
+    /// Takes back what was saved of the same bodies.
+    pub(crate) fn restore(&mut self, mut saved: &[T]) {
+        for planet in &mut self.planets {
+            let Planet { position, position_carry, velocity, velocity_carry } = planet;
+            for triple in [position, position_carry, velocity, velocity_carry] {
+                *triple = take(&mut saved).unwrap_or(*triple);
+            }
+        }
+        for triple in &mut self.centre_of_mass {
+            *triple = take(&mut saved).unwrap_or(*triple);
+        }
     }
 
     /// Becomes `other`, of the same bodies, without a new allocation.

@@ -1,14 +1,16 @@
 //! A run in democratic heliocentric coordinates, with or without close encounters.
 
+use core::convert::Infallible;
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::equal_steps;
-use piola_integrators::{Ending, IntegratorsError, Report, State, Step};
+use piola_integrators::{Checkpoint, Ending, IntegratorsError, Report, State, Step};
 use piola_numerics::Real;
 
 use super::alternation::Parts;
 use super::planets::{PlanetMasses, Planets};
 use super::{Splitting, check};
+use crate::checkpoint::whole;
 use crate::kepler::Increment;
 use crate::{Gravitation, GravitationError};
 
@@ -17,6 +19,9 @@ pub(crate) type Failure = IntegratorsError<GravitationError>;
 
 /// Treatment of planets that come near each other.
 pub(crate) trait Near<T> {
+    /// The name of the method in a checkpoint.
+    const NAME: &'static str;
+
     /// |d|⁻³ times the part of an attraction between two planets that Kepler's motions leave out.
     fn weight(&self, first: usize, second: usize, distance: [T; 3]) -> T;
 
@@ -32,6 +37,14 @@ pub(crate) trait Near<T> {
 
     /// Ends a step.
     fn end_step(&mut self) {}
+
+    /// What the next motions depend on, for a checkpoint.
+    fn saved(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Takes back what was saved.
+    fn restore(&mut self, _saved: &[f64]) {}
 }
 
 /// When a motion starts.
@@ -53,18 +66,25 @@ pub(crate) struct Course {
 /// The equal steps of one run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EqualSteps {
-    start: f64,
-    end: f64,
-    /// How many.
+    pub(crate) start: f64,
+    pub(crate) end: f64,
+    /// Steps of the run before these.
+    pub(crate) before: u64,
+    /// How many there are with those before.
     pub(crate) count: u64,
     /// The length of each, s; negative in a run backwards.
     pub(crate) length: f64,
 }
 
 impl EqualSteps {
-    /// The time after so many of them; after the last, exactly the end.
+    /// Seconds from the start of these steps to the end of a step of the run.
+    pub(crate) fn elapsed(&self, steps: u64) -> f64 {
+        self.length * (steps - self.before) as f64
+    }
+
+    /// The time after so many steps of the run; after the last, exactly the end.
     pub(crate) fn time(&self, steps: u64) -> f64 {
-        if steps == self.count { self.end } else { self.start + self.length * steps as f64 }
+        if steps == self.count { self.end } else { self.start + self.elapsed(steps) }
     }
 }
 
@@ -95,31 +115,48 @@ impl Course {
             return Err(IntegratorsError::NotFinite { quantity, index: 0, value, t: None });
         }
         let (count, length) = equal_steps(start, end, self.step)?;
-        Ok(EqualSteps { start, end, count, length })
+        Ok(EqualSteps { start, end, before: 0, count, length })
     }
 
-    /// Integrates to `end` in equal steps. The observer sees every `shown`-th step and the last.
+    /// Integrates to `end` in equal steps; from a checkpoint if there is one. The observer sees every `shown`-th step and
+    /// the last. Returns the run where it ends.
     pub(crate) fn integrate<T: Real, N: Near<T>>(
         self,
         near: &mut N,
         bodies: &Gravitation,
-        state: &mut State<T>,
-        end: f64,
+        resumed: Option<&Checkpoint<T>>,
+        (state, end): (&mut State<T>, f64),
         shown: u64,
         mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Report, Failure> {
-        let steps = self.begin(bodies, state, end)?;
-        let mut report = Report::begin();
-        if steps.count == 0 {
-            return Ok(report);
+    ) -> Result<Checkpoint<T>, Failure> {
+        let lengths = [Planets::<T>::numbers(bodies.bodies()), near.saved().len()];
+        let (steps, saved) = match resumed {
+            None => (self.begin(bodies, state, end)?, None),
+            Some(checkpoint) => open(checkpoint, N::NAME, lengths, self, bodies, state, end)?,
+        };
+        let mut report = resumed.map_or(Report::begin(), |checkpoint| checkpoint.report().continued());
+        if let Some(checkpoint) = resumed {
+            // Also where the steps differ: radii and encounters are those of the whole run.
+            near.restore(&checkpoint.memory().1[OF_STEPS..]);
         }
-        let (start, count, h) = (steps.start, steps.count, steps.length);
+        if steps.count == report.steps {
+            return Ok(checkpoint(N::NAME, &steps, state, report, None, lengths[0], &near.saved()));
+        }
+        let (count, h) = (steps.count, steps.length);
         let mut run = Run::new(near, bodies.parameters(), &state.values, h, self.splitting);
         let mut values = state.values.clone();
         let time = |number: u64| steps.time(number);
         // The steps after which the state is `values`.
-        let mut reached = 0;
-        let mut failure = run.enter(start).err();
+        let first = report.steps;
+        let mut reached = first;
+        let mut failure = match saved {
+            None => run.enter(state.time).err(),
+            Some(memory) => {
+                run.planets.restore(memory);
+                run.is_ahead = true;
+                None
+            }
+        };
         while failure.is_none() && report.steps < count {
             run.spare.copy(&run.planets);
             if let Err(error) = run.step(time(report.steps), report.steps + 1 < count) {
@@ -134,7 +171,7 @@ impl Course {
             if number < count && (shown == 0 || !number.is_multiple_of(shown)) {
                 continue;
             }
-            if let Err(error) = run.show(h * number as f64, time(number), &mut values) {
+            if let Err(error) = run.show(steps.elapsed(number), time(number), &mut values) {
                 failure = Some(error);
                 break;
             }
@@ -146,17 +183,70 @@ impl Course {
         }
         // Where the last good step cannot be shown, the state is the one that was shown last.
         let last = report.steps;
-        if reached < last && run.show(h * last as f64, time(last), &mut values).is_ok() {
+        if reached < last && run.show(steps.elapsed(last), time(last), &mut values).is_ok() {
             reached = last;
         }
-        if 0 < reached {
+        if first < reached {
             *state = State::new(time(reached), values).map_err(IntegratorsError::with_field_error)?;
         }
         match failure {
-            None => Ok(report),
+            None => {
+                let memory = run.is_ahead.then(|| run.planets.saved());
+                Ok(checkpoint(N::NAME, &steps, state, report, memory, lengths[0], &run.near.saved()))
+            }
             Some(error) => Err(error),
         }
     }
+}
+
+/// The numbers that all maps keep: when the steps began, their length, how many are made, and whether the memory continues them.
+pub(crate) const OF_STEPS: usize = 4;
+
+/// A checkpoint after `report.steps` of the steps; without a memory the run begins anew from the state.
+pub(crate) fn checkpoint<T: Real>(
+    method: &'static str,
+    steps: &EqualSteps,
+    state: &State<T>,
+    report: Report,
+    memory: Option<Vec<T>>,
+    length: usize,
+    others: &[f64],
+) -> Checkpoint<T> {
+    let made = (report.steps - steps.before) as f64;
+    let of_steps = [steps.start, steps.length, made, f64::from(u8::from(memory.is_some()))];
+    let memory = memory.unwrap_or_else(|| vec![T::zero(); length]);
+    Checkpoint::of(method, state.clone(), report, memory, [&of_steps[..], others].concat())
+}
+
+/// The steps of a run that goes on to `end`, and its memory if they are those of the checkpoint. The state becomes that of the checkpoint.
+pub(crate) fn open<'a, T: Real>(
+    checkpoint: &'a Checkpoint<T>,
+    method: &'static str,
+    [memory, others]: [usize; 2],
+    course: Course,
+    bodies: &Gravitation,
+    state: &mut State<T>,
+    end: f64,
+) -> Result<(EqualSteps, Option<&'a [T]>), Failure> {
+    checkpoint.open(method, [memory, OF_STEPS + others], &[], state, |state| {
+        let t = state.time;
+        check(bodies, &state.values).map_err(|source| IntegratorsError::Field { t, source })
+    })?;
+    let (memory, numbers) = checkpoint.memory();
+    let report = checkpoint.report();
+    let [start, length, made, continues] = [numbers[0], numbers[1], numbers[2], numbers[3]];
+    if 0.0 < continues
+        && end.is_finite()
+        && let Ok((count, h)) = equal_steps::<Infallible>(start, end, course.step)
+        && h.to_bits() == length.to_bits()
+        && made < count as f64
+    {
+        let before = report.steps.saturating_sub(whole(made));
+        return Ok((EqualSteps { start, end, count: before + count, length, before }, Some(memory)));
+    }
+    let steps = course.begin(bodies, state, end)?;
+    let before = report.steps;
+    Ok((EqualSteps { count: before + steps.count, before, ..steps }, None))
 }
 
 /// A run: between steps it stands after the first motion of the next one, at last at the end of the last one.

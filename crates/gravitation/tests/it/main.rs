@@ -1,6 +1,8 @@
 //! Tests of gravitation.
 
 mod alloc;
+#[cfg(feature = "serde")]
+mod checkpoints;
 mod conics;
 mod democratic;
 mod golden;

@@ -49,6 +49,19 @@ fn outer_planets_follow_their_reference() {
 }
 
 #[test]
+fn end_converges_with_the_square_of_the_step_over_two_decades() {
+    let (bodies, start) = planets(3, 1e-3);
+    let mut exact = State::new(0.0, start.clone()).unwrap();
+    GaussRadau15::to_rounding().integrate_to(&mut bodies.clone(), &mut exact, 8.0).unwrap();
+    let steps = [0.1, 0.032, 0.01, 0.0032, 0.001];
+    let errors = steps.map(|step| {
+        let found = end(&bodies, &start, Splitting::Leapfrog, step, 8.0);
+        found.iter().zip(&exact.values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    });
+    assert_order("leapfrog", &steps, &errors, 2.0, 0.1);
+}
+
+#[test]
 fn errors_fall_with_the_powers_of_step_and_mass_that_are_promised() {
     // Of the step: h² for the leapfrog; ε² h² for the corrected one, whose first order is gone.
     let (bodies, start) = planets(3, 1e-3);

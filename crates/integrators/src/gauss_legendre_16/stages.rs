@@ -2,7 +2,7 @@
 
 use piola_numerics::{Lanes, Real};
 
-use super::tableau::{LEGENDRE, NODES, OFFSETS, POSITION, POSITION_WEIGHTS, Stages, VELOCITY, WEIGHTS};
+use super::tableau::{COEFFICIENTS, LEGENDRE, NODES, OFFSETS, POSITION, POSITION_WEIGHTS, Stages, VELOCITY, WEIGHTS};
 use crate::collocation::{Attempt, Collocation};
 use crate::state::{check_finite, compensated_add};
 use crate::{IntegratorsError, SecondOrder, State};
@@ -43,16 +43,16 @@ pub(super) struct Workspace {
     continuation: Continuation,
 }
 
-/// The matrix that continues the polynomial of a step to the nodes of the next, by columns.
+/// Legendre's polynomials of a step at the nodes of the next.
 #[derive(Clone, Debug)]
 struct Continuation {
     ratio: f64,
-    columns: [Stages; 8],
+    polynomials: [Stages; 8],
 }
 
 impl Default for Continuation {
     fn default() -> Self {
-        Self { ratio: f64::NAN, columns: [Lanes([0.0; 8]); 8] }
+        Self { ratio: f64::NAN, polynomials: [Lanes([0.0; 8]); 8] }
     }
 }
 
@@ -88,26 +88,39 @@ fn last_coefficient(accelerations: &[Stages], size: f64) -> f64 {
     if 0.0 < size { last / (0.125 * size) } else { 0.0 }
 }
 
+/// `P_(k+1) = ((2k + 1) x P_k − k P_(k−1))/(k + 1)`
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn next_polynomial(k: f64, x: Stages, now: Stages, before: Stages) -> Stages {
+    Lanes::splat((2.0 * k + 1.0) / (k + 1.0)) * x * now - Lanes::splat(k / (k + 1.0)) * before
+}
+
 impl Continuation {
+    /// For a next step of this length in lengths of the last one.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn to(&mut self, ratio: f64) {
         if self.ratio.to_bits() == ratio.to_bits() {
             return;
         }
         self.ratio = ratio;
-        let terms = if ratio.abs() <= FAR { 8 } else { 3 };
-        // P_k at the nodes of the next step, on the interval of the last one.
-        let x = Lanes::splat(1.0) + Lanes::splat(2.0 * ratio) * NODES;
-        let (mut before, mut now) = (Lanes::splat(1.0), x);
-        self.columns = LEGENDRE[0].0.map(Lanes::splat);
-        for (k, row) in LEGENDRE.iter().enumerate().take(terms).skip(1) {
-            for (column, weight) in self.columns.iter_mut().zip(row.0) {
-                *column += now * Lanes::splat(weight);
-            }
-            let k = k as f64;
-            let next = (Lanes::splat((2.0 * k + 1.0) / (k + 1.0)) * x) * now - Lanes::splat(k / (k + 1.0)) * before;
-            (before, now) = (now, next);
+        // One after the other, not in a loop: the compiler makes gathers and scatters of one, which cost more than the sweeps.
+        let (one, x) = (Lanes::splat(1.0), Lanes::splat(1.0) + Lanes::splat(2.0 * ratio) * NODES);
+        let second = next_polynomial(1.0, x, x, one);
+        let zero = Lanes([0.0; 8]);
+        self.polynomials = [one, x, second, zero, zero, zero, zero, zero];
+        if ratio.abs() <= FAR {
+            let third = next_polynomial(2.0, x, second, x);
+            let fourth = next_polynomial(3.0, x, third, second);
+            let fifth = next_polynomial(4.0, x, fourth, third);
+            let sixth = next_polynomial(5.0, x, fifth, fourth);
+            let seventh = next_polynomial(6.0, x, sixth, fifth);
+            self.polynomials = [one, x, second, third, fourth, fifth, sixth, seventh];
         }
+    }
+
+    /// The accelerations of the last step, continued to the stages of the next.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn of(&self, previous: Stages) -> Stages {
+        times(&self.polynomials, times(&COEFFICIENTS, previous))
     }
 }
 
@@ -167,7 +180,7 @@ impl<F: SecondOrder<Stages>> Collocation<f64, F> for Workspace {
         } else {
             self.continuation.to(h / self.previous_step);
             for (acceleration, &previous) in accelerations.iter_mut().zip(&self.previous[..n]) {
-                *acceleration = times(&self.continuation.columns, previous);
+                *acceleration = self.continuation.of(previous);
             }
         }
         let time = Lanes::splat(state.time) + Lanes::splat(h) * NODES;

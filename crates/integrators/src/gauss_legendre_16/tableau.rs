@@ -301,3 +301,13 @@ pub(super) const LEGENDRE: [Stages; 8] = [
         0.11769245644771356,
     ]),
 ];
+/// The same by columns, entry k of column j: the coefficients of a polynomial from its values at the stages.
+pub(super) const COEFFICIENTS: [Stages; 8] = {
+    let mut columns = [Lanes([0.0; 8]); 8];
+    let mut k = 0;
+    while k < 64 {
+        columns[k % 8].0[k / 8] = LEGENDRE[k / 8].0[k % 8];
+        k += 1;
+    }
+    columns
+};

@@ -1,0 +1,14 @@
+//! Numbers of a checkpoint, taken back.
+
+/// The whole number that a count of steps was.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count; what is none saturates")]
+pub(crate) fn whole(count: f64) -> u64 {
+    count as u64
+}
+
+/// The next N numbers.
+pub(crate) fn take<T: Copy, const N: usize>(rest: &mut &[T]) -> Option<[T; N]> {
+    let (first, others) = rest.split_first_chunk::<N>()?;
+    *rest = others;
+    Some(*first)
+}
