@@ -169,8 +169,7 @@ where
     let written = (results.write)(&folder);
     let text = if json { (results.summary)() } else { (results.table)() };
     show(&text, json, &folder, &written);
-    let refusals: Vec<String> = comparison.refusals().map(|(model, refusal)| format!("{model}: {refusal}")).collect();
-    settled(comparison, comparison.is_complete(), &refusals, are_named, &written)
+    settled(comparison, comparison.is_complete(), &comparison.refusals_in_words(), are_named, &written)
 }
 
 /// The exit of a comparison. Models that nobody named do not decide it, unless one of them is the best.

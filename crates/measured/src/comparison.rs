@@ -2,6 +2,7 @@
 //! [`rheology`](crate::rheology).
 
 use core::cell::{Cell, RefCell};
+use core::fmt::Display;
 use core::ops::ControlFlow;
 
 /// The judgement of a fit: what a [`Comparison`] ranks it by.
@@ -87,6 +88,23 @@ impl<M: Copy + PartialEq, F: Judged, E> Comparison<M, F, E> {
     /// The models without a fit, and why.
     pub fn refusals(&self) -> impl Iterator<Item = (M, &E)> {
         self.candidates.iter().filter_map(|candidate| Some((candidate.model, candidate.fit.as_ref().err()?)))
+    }
+
+    /// The refusals as sentences that begin with the name of the model, once: a library's begin with its own spelling of it.
+    #[must_use]
+    pub fn refusals_in_words(&self) -> Vec<String>
+    where
+        M: Display,
+        E: Display,
+    {
+        let sentence = |(model, refusal): (M, &E)| {
+            let (model, refusal) = (model.to_string(), refusal.to_string());
+            match refusal.split_once(": ") {
+                Some((name, rest)) if name.to_lowercase().replace(' ', "-") == model => format!("{model}: {rest}"),
+                _ => format!("{model}: {refusal}"),
+            }
+        };
+        self.refusals().map(sentence).collect()
     }
 
     /// The fit with the least `AICc` of those that are ranked; `None` where no fit has one.

@@ -3,9 +3,9 @@
 //! ```sh
 //! cargo run --release -p piola-viscometry --example bands -- 200
 //! ```
-//! The first argument is the number of trials of each fluid in each flow, the second, if there is one, the only flow. Each table has 25 rows at wall rates from 10⁻² to 10³ 1/s, each response
-//! times 1 + 1 % normal noise, which is estimated from the table. Rows whose band reaches by more than a factor of ten are refused, as
-//! `piola recover` does.
+//! The first argument is the number of trials of each fluid in each flow, the second, if there is one, the only flow, the third the only
+//! fluid. Each table has 25 rows at wall rates from 10⁻² to 10³ 1/s, each response times 1 + 1 % normal noise, which is estimated from the
+//! table. Rows whose band reaches by more than a factor of ten are refused, as `piola recover` does.
 //!
 //! The program first prints what the four numbers of a cell mean. The bands are simultaneous: nominally they hold 95 % of the curves.
 //! The results are in `docs/measurements/measured-tables.md`.
@@ -150,7 +150,7 @@ fn cell(fluid: &AnyFluid, flow: &str, trials: u32, normal: &mut NormalNoise) -> 
     let ratio = ratio.filter(|ratio| ratio.is_finite()).map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.1}"));
     let share = |part: f64, all: f64| 100.0 * part / all;
     Ok(format!(
-        "{:.0} / {:.1} / {ratio} / {:.0}",
+        "{:.1} / {:.1} / {ratio} / {:.0}",
         share(f64::from(whole), f64::from(counted)),
         share(held as f64, all as f64),
         share(refused as f64, f64::from(trials) * ROWS as f64)
@@ -159,8 +159,8 @@ fn cell(fluid: &AnyFluid, flow: &str, trials: u32, normal: &mut NormalNoise) -> 
 
 fn main() -> Result<(), Box<dyn Error>> {
     let trials = std::env::args().nth(1).map_or(Ok(200), |text| text.parse())?;
-    let only = std::env::args().nth(2);
-    let flows: Vec<&str> = FLOWS.into_iter().filter(|flow| only.as_ref().is_none_or(|only| only == flow)).collect();
+    let only = |argument: usize, name: &str| std::env::args().nth(argument).is_none_or(|only| only == name);
+    let flows: Vec<&str> = FLOWS.into_iter().filter(|flow| only(2, flow)).collect();
     let mut normal = NormalNoise(20_261_127);
     let mut out = std::io::stdout();
     writeln!(out, "{LEGEND}")?;
@@ -177,7 +177,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         Cross::new(50.0, 0.02, 2.0, 0.75)?.into(),
         CarreauYasuda::new(10.0, 0.01, 1.0, 0.4, 2.0)?.into(),
     ];
-    for fluid in &fluids {
+    for fluid in fluids.iter().filter(|fluid| only(3, fluid.name())) {
         let mut line = format!("| {} |", fluid.name());
         for &flow in &flows {
             write!(line, " {} |", cell(fluid, flow, trials, &mut normal)?)?;

@@ -125,9 +125,11 @@ fn states_after_viscous_flow_that_ends_equal_those_of_many_increments() -> Falli
     let back = |case: u64, start: &Matrix3<f64>| {
         start + (Matrix3::identity() - start) * (0.05 + 0.95 * (case as f64 * 0.618).fract())
     };
-    let tol = Tol::stated(2e-7, "flow that ends inside a part: at most 9.2e-8 in 200 turns with a tolerance of 1e-10");
-    let flown = check_turns(0.5, (1e-10, tol), back)?;
-    assert!(10 < flown, "{flown} increments flow");
+    for tolerance in [1e-6, 1e-10] {
+        let tol = Tol::stated(100.0 * tolerance, "the errors of some parts, and what they become");
+        let flown = check_turns(0.5, (tolerance, tol), back)?;
+        assert!(10 < flown, "{flown} increments flow");
+    }
     Ok(())
 }
 

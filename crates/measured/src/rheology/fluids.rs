@@ -369,8 +369,19 @@ impl Comparison {
 
     /// Lines on the best fluid: how it was chosen, and warnings.
     fn judgement(&self) -> String {
+        let unranked = if self.fits().any(|(fluid, _)| fluid.is_regularisation()) {
+            "papanastasiou regularises herschel-bulkley for computations: it is not ranked.\n"
+        } else {
+            ""
+        };
         let Some((best, fit)) = self.best() else {
-            return "No fluid has an AICc: that takes at least three rows more than parameters.\n".to_owned();
+            let none = "No fluid has an AICc: that takes at least three rows more than parameters.\n";
+            let is_any_ranked = self.fits().any(|(fluid, _)| !fluid.is_regularisation());
+            return if is_any_ranked || unranked.is_empty() {
+                format!("{none}{unranked}")
+            } else {
+                unranked.to_owned()
+            };
         };
         let mut text = format!("{best} has the least AICc.\n");
         let rivals: Vec<&str> = self.rivals().map(|(fluid, _)| fluid.name()).collect();
@@ -386,10 +397,7 @@ impl Comparison {
                  {widening:.1} times those of independent errors, and differences of AICc below {within:.0} say nothing."
             );
         }
-        if self.fits().any(|(fluid, _)| fluid.is_regularisation()) {
-            text.push_str("papanastasiou regularises herschel-bulkley for computations: it is not ranked.\n");
-        }
-        text
+        text + unranked
     }
 
     /// Writes summary, tables and figure.

@@ -14,3 +14,4 @@ mod nonlinear;
 mod rheology;
 mod sides;
 mod spectra;
+mod words;

@@ -8,6 +8,9 @@
 
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
+/// Half the width of ln beyond which a band has no ends that are numbers.
+pub(super) const WIDEST: f64 = 300.0;
+
 /// P(c < |t|).
 fn both_tails(c: f64, freedom: f64) -> f64 {
     let normal = || 2.0 * Normal::standard().sf(c);

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::band::{critical, selected};
+use super::band::{WIDEST, critical, selected};
 use super::rule::{Below, ONE_POWER, Rule, assumed, coarse};
 use super::smoother::{Penalised, Smoother};
 use super::smoothing::{Criterion, Curve, EXACT, Fitted, Smoothing, thinned};
@@ -119,6 +119,8 @@ pub(super) struct Recovered {
     pub(super) below: BelowSmallest,
     pub(super) monotonicity: Monotonicity,
     pub(super) residuals: Vec<f64>,
+    /// The abscissa from which on all values are known.
+    known_from: f64,
     /// The confidence and the half widths of ln at the fine points.
     band: Option<(f64, Vec<f64>)>,
 }
@@ -204,8 +206,9 @@ impl Recovered {
             made
         };
         recovered.level = level;
+        recovered.known_from = recovered.first_known();
         if recovered.is_unknown(recovered.u[recovered.u.len() - 1]) {
-            return Err(ViscometryError::YieldUnknown { rows: recovered.u.len(), above: recovered.known_from() });
+            return Err(ViscometryError::YieldUnknown { rows: recovered.u.len(), above: recovered.known_from });
         }
         recovered.choose_terms();
         recovered.monotonicity = recovered.monotonicity()?;
@@ -239,6 +242,7 @@ impl Recovered {
             below: BelowSmallest::NotNeeded,
             monotonicity: Monotonicity::Rising,
             residuals,
+            known_from: 0.0,
             band: None,
         }
     }
@@ -316,10 +320,12 @@ impl Recovered {
         self.rule.yields() && value().is_none_or(|[_, doubt]| UNKNOWN < doubt)
     }
 
-    /// The abscissa from which on all values are known of a fluid that seems to yield.
-    fn known_from(&self) -> f64 {
-        let unknown = self.fine().filter(|u| self.is_unknown(*u)).last();
-        let known = self.fine().find(|u| unknown.is_none_or(|unknown| unknown < *u));
+    /// The abscissa from which on all values are known, of a fluid that seems to yield.
+    fn first_known(&self) -> f64 {
+        let mut known = None;
+        for u in self.fine() {
+            known = if self.is_unknown(u) { None } else { known.or(Some(u)) };
+        }
         self.abscissa(known.unwrap_or_else(|| match self.rule {
             // Beyond the table, where it is enough that the smallest drive is a step below.
             Rule::Series { step, .. } => self.u[0] + step,
@@ -474,7 +480,7 @@ impl Recovered {
         }
         let u = u.max(lowest).min(highest);
         if self.is_unknown(u) {
-            return Err(ViscometryError::YieldUnknown { rows: self.u.len(), above: self.known_from() });
+            return Err(ViscometryError::YieldUnknown { rows: self.u.len(), above: self.known_from });
         }
         let logarithm = self.logarithm(u).ok_or(ViscometryError::NotRecovered { at: abscissa })?;
         let value = logarithm.exp();
@@ -490,6 +496,3 @@ impl Recovered {
         Ok((value, half.map(|half| [value * (-half).exp(), value * half.exp()])))
     }
 }
-
-/// Half the width of ln beyond which a band has no ends that are numbers.
-const WIDEST: f64 = 300.0;
