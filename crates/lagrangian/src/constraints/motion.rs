@@ -40,8 +40,9 @@ const ACCEPTED: u32 = 40;
 ///
 /// # Accuracy
 /// At the distance x from a singular position rounding moves a state that is brought onto the branch by ε/x². Runs through
-/// such positions take tolerances down to about 1e-11. A run with a tighter one may end at such a position with
-/// [`ConstraintError::Singular`](crate::ConstraintError::Singular).
+/// such positions take tolerances down to about 1e-10. A run with a tighter one may end at such a position with
+/// [`ConstraintError::Singular`](crate::ConstraintError::Singular): a slider-crank with equal crank and rod so ended at about one of
+/// thousand positions at 1e-11.
 ///
 /// # Example
 /// See [`Constrained::integrate`].

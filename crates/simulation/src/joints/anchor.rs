@@ -19,6 +19,13 @@ pub struct Anchor {
     at: [f64; 3],
 }
 
+impl Anchor {
+    /// Gives the joints other numbers.
+    pub(super) fn renumber(&mut self, number: &dyn Fn(usize) -> usize) {
+        self.path.iter_mut().for_each(|joint| *joint = number(*joint));
+    }
+}
+
 impl JointTree {
     /// The point `at` (m) in the frame of a joint, or of the ground.
     ///
