@@ -227,14 +227,12 @@ impl Constraints for Ties {
     const TIME_DEPENDENT: bool = true;
     fn count(&self) -> usize {
         match self {
-            Self::FourBar => 2,
+            Self::FourBar | Self::SliderCrank | Self::DrivenSlider { .. } => 2,
             Self::FourBarThrice => 4,
             Self::Bricard | Self::Squeezer(_) => 6,
-            Self::SliderCrank | Self::DrivenSlider { .. } => 2,
-            Self::SliderOnRod => 1,
             Self::Linear(rows) => rows.len(),
             Self::Distances(pairs) => pairs.len(),
-            Self::Radius(_) => 1,
+            Self::Radius(_) | Self::SliderOnRod => 1,
             Self::Ladder { n, .. } => 2 * n,
         }
     }
