@@ -30,7 +30,8 @@ impl System<f64, Angles> for Pendulum {
         let [a, b, u, w] = [y[0], y[0] + y[1], y[2], y[2] + y[3]];
         let (sine, cosine) = (a - b).sin_cos();
         let inertia = 1.0 + 2.0 * sine * sine;
-        let du = (-3.0 * G * a.sin() + 2.0 * G * b.sin() * cosine - 2.0 * sine * (0.5 * w * w + u * u * cosine)) / inertia;
+        let du =
+            (-3.0 * G * a.sin() + 2.0 * G * b.sin() * cosine - 2.0 * sine * (0.5 * w * w + u * u * cosine)) / inertia;
         let dw = (3.0 * G * (a.sin() * cosine - b.sin()) + sine * (3.0 * u * u + w * w * cosine)) / (0.5 * inertia);
         *rate = [y[2], y[3], du, dw - du].into();
     }
@@ -114,7 +115,9 @@ fn main() {
             *least = [least[0].min(found[0]), least[1].min(found[1])];
         }
     }
-    println!("| {members} double pendulums, {END} s each | members a second | processor time a member |\n|---|---|---|");
+    println!(
+        "| {members} double pendulums, {END} s each | members a second | processor time a member |\n|---|---|---|"
+    );
     for ((name, ..), [wall, processor]) in ways.iter().zip(least) {
         println!("| {name} | {:.0} | {:.2} ms |", 1.0 / wall, 1e3 * processor);
     }

@@ -3,8 +3,8 @@
 use std::process::ExitCode;
 
 use mpi::Threading;
-use mpi::topology::{Communicator as _, SimpleCommunicator};
 use mpi::point_to_point::traits::{Destination as _, MatchedReceiveVec as _, Source as _};
+use mpi::topology::{Communicator as _, SimpleCommunicator};
 use piola_ensemble::{Alone, Ranks};
 
 /// The processes of `MPI_COMM_WORLD`.

@@ -95,7 +95,8 @@ fn a_killed_run_goes_on_with_another_number_of_processes() {
     }
     let (folder, scene) = (Folder::new("killed"), scene());
     assert_eq!(folder.run(None, &sweep(&scene, &["--out", "whole"])).0, Some(0));
-    let mut child = folder.command(Some(2), &sweep(&scene, &["--out", "cut"])).spawn().unwrap_or_else(|error| panic!("{error}"));
+    let mut child =
+        folder.command(Some(2), &sweep(&scene, &["--out", "cut"])).spawn().unwrap_or_else(|error| panic!("{error}"));
     let journal = folder.0.join("cut/members-1-of-1.journal");
     let lines = || std::fs::read_to_string(&journal).map_or(0, |text| text.matches('\n').count());
     let begun = Instant::now();

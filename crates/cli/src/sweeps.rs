@@ -144,7 +144,8 @@ fn prepare(
     if ranks.rank() != 0 {
         return Ok((ensemble, None, options));
     }
-    let cores = options.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1) * ranks.count();
+    let cores = options.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1)
+        * ranks.count();
     if let Some(seconds) = predicted_seconds(&ensemble, options.part)?
         && !arguments.yes
         && MOST_SECONDS < seconds / cores as f64

@@ -16,7 +16,12 @@ const GROUP: usize = 1 << 18;
 
 type Group<'g, 'f> = SerializedRowGroupWriter<'g, &'f mut Vec<u8>>;
 
-fn column(name: &str, kind: Physical, is_optional: bool, logical: Option<LogicalType>) -> Result<TypePtr, ParquetError> {
+fn column(
+    name: &str,
+    kind: Physical,
+    is_optional: bool,
+    logical: Option<LogicalType>,
+) -> Result<TypePtr, ParquetError> {
     let repetition = if is_optional { Repetition::OPTIONAL } else { Repetition::REQUIRED };
     let built = Type::primitive_type_builder(name, kind).with_repetition(repetition).with_logical_type(logical);
     Ok(Arc::new(built.build()?))
@@ -46,7 +51,7 @@ impl Results<'_> {
     /// | `member` | INT64 |
     /// | varied values | DOUBLE |
     /// | quantities, SI units | optional DOUBLE: null where the CSV has an empty field |
-    /// | `failure` | optional BYTE_ARRAY, UTF-8 |
+    /// | `failure` | optional UTF-8 |
     ///
     /// Pages are not compressed. Equal results have equal bytes.
     ///

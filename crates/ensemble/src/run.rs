@@ -11,7 +11,7 @@ use piola_scene::{SceneFile, run};
 
 use crate::crew::{Crew, pool};
 use crate::journal::{Journal, collected};
-use crate::ranks::{PAUSE, Reply, Request, heard, say, ask};
+use crate::ranks::{PAUSE, Reply, Request, ask, heard, say};
 use crate::{Alone, Ensemble, EnsembleError, Member, Portion, Ranks};
 
 /// How an ensemble is computed.
@@ -216,7 +216,9 @@ impl Lead {
 
     fn answer(&mut self, request: Request, count: usize, observer: &mut dyn FnMut(f64) -> ControlFlow<()>) -> Reply {
         let Request::Finished { members, unfinished, wanted } = request else { return Reply::End };
-        members.iter().for_each(|member| self.keep(member, observer));
+        for member in &members {
+            self.keep(member, observer);
+        }
         let rest = if self.stopped { &[] } else { &self.left[self.next..] };
         if unfinished == 0 && rest.is_empty() {
             return Reply::End;

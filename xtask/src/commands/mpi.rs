@@ -41,10 +41,7 @@ fn missing(shell: &Shell) -> Option<&'static str> {
 /// Names what is not tested.
 fn skipped(tests: &Path, program: &str) -> Result<String, String> {
     let text = read(tests)?;
-    let names: Vec<&str> = text
-        .split("#[test]\nfn ")
-        .skip(1)
-        .map(|test| test.split('(').next().unwrap_or_default())
-        .collect();
+    let names: Vec<&str> =
+        text.split("#[test]\nfn ").skip(1).map(|test| test.split('(').next().unwrap_or_default()).collect();
     Ok(format!("{} tests skipped, because `{program}` is not installed: {}", names.len(), names.join(", ")))
 }

@@ -5,7 +5,8 @@ use std::process::{Command, Stdio};
 
 /// The browser, if there is one.
 fn chromium() -> Option<&'static str> {
-    let is_there = |name: &&str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
+    let is_there =
+        |name: &&str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
     ["chromium", "chromium-browser", "google-chrome"].into_iter().find(is_there)
 }
 
@@ -32,7 +33,8 @@ const FRAME: &str = "<!DOCTYPE html><html><head><script>addEventListener('messag
 /// What the page says of itself, and what the browser has logged.
 fn measured(browser: &str, folder: &Path) -> (Vec<f64>, String) {
     let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{error}"));
-    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap_or_else(|error| panic!("{error}"));
+    let write =
+        |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap_or_else(|error| panic!("{error}"));
     let report = read("report.html");
     assert_eq!(report.matches("</body>").count(), 1);
     write("inner.html", &report.replace("</body>", &format!("{MEASURE}</body>")));
@@ -65,7 +67,9 @@ fn report(name: &str, arguments: &[&str]) -> PathBuf {
 #[test]
 fn reports_have_every_figure_no_error_and_readable_text_on_a_phone() {
     let Some(browser) = chromium() else {
-        println!("1 test skipped: reports_have_every_figure_no_error_and_readable_text_on_a_phone: Chromium is not installed");
+        println!(
+            "1 test skipped: reports_have_every_figure_no_error_and_readable_text_on_a_phone: Chromium is not installed"
+        );
         return;
     };
     let sweep = ["sweep", "--set", "time.end=1 s", "--vary", "joint.elbow.angle=0:1:5 rad"];

@@ -22,7 +22,9 @@ pub struct Anchor {
 impl Anchor {
     /// Gives the joints other numbers.
     pub(super) fn renumber(&mut self, number: &dyn Fn(usize) -> usize) {
-        self.path.iter_mut().for_each(|joint| *joint = number(*joint));
+        for joint in &mut self.path {
+            *joint = number(*joint);
+        }
     }
 }
 

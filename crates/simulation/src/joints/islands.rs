@@ -160,11 +160,11 @@ impl Mechanism {
         let joint_numbers =
             |all: &[usize]| all.iter().copied().filter(|joint| is_here(*joint)).map(joint_number).collect::<Vec<_>>();
         let node = |&joint: &usize| {
-            let Node { parent, offset, ref motion, first, ref children, ref parts } = self.tree.joints[joint];
+            let Node { parent, offset, motion, first, ref children, ref parts } = self.tree.joints[joint];
             Node {
                 parent: parent.map(joint_number),
                 offset,
-                motion: motion.clone(),
+                motion,
                 first: coordinates.partition_point(|coordinate| *coordinate < first),
                 children: joint_numbers(children),
                 parts: if has_parts(joint) { parts.clone() } else { Vec::new() },
@@ -200,13 +200,14 @@ impl Mechanism {
         };
         let constraints: Vec<usize> =
             (0..self.constraints.len()).filter(|i| holds_here(&self.constraints[*i].kind)).collect();
-        let mut constraints_here: Vec<Constraint> =
-            constraints.iter().map(|i| self.constraints[*i].clone()).collect();
+        let mut constraints_here: Vec<Constraint> = constraints.iter().map(|i| self.constraints[*i].clone()).collect();
         for Constraint { kind, .. } in &mut constraints_here {
             match kind {
                 ConstraintKind::Prescribed { coordinate, .. } => *coordinate = numbered(*coordinate),
                 ConstraintKind::Distance { ends, .. } | ConstraintKind::Loop { ends } => {
-                    ends.iter_mut().for_each(|end| end.renumber(&joint_number));
+                    for end in ends {
+                        end.renumber(&joint_number);
+                    }
                 }
                 ConstraintKind::Rolling { centre, .. } => centre.renumber(&joint_number),
             }

@@ -5,11 +5,11 @@ use core::ops::ControlFlow;
 
 use piola_kinematics::{Attitude, Inertia, RigidBody};
 use piola_lagrangian::Lagrangian;
-use piola_simulation::{Outcome, SimulationError};
 use piola_simulation::constraints::{Constraint, ConstraintKind};
 use piola_simulation::forces::{Force, ForceKind};
 use piola_simulation::joints::{Coordinate, Joint, JointMotion, Mechanism, Part, PartKind};
 use piola_simulation::motion::{History, Method, MotionRun, PartReaction, System, TimeSpan, Timetable, simulate};
+use piola_simulation::{Outcome, SimulationError};
 use piola_testkit::{Tol, assert_close};
 
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];

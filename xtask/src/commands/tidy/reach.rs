@@ -58,7 +58,8 @@ mod tests {
 
     #[test]
     fn public_modules_are_those_that_users_see() {
-        let source = "mod private;\npub mod shown;\n#[doc(hidden)]\npub mod hidden;\npub mod internal {\n}\npub mod inline {\n";
+        let source =
+            "mod private;\npub mod shown;\n#[doc(hidden)]\npub mod hidden;\npub mod internal {\n}\npub mod inline {\n";
         assert_eq!(modules(source).collect::<Vec<_>>(), ["shown", "inline"]);
     }
 
