@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use mpi::Threading;
 use mpi::point_to_point::traits::{Destination as _, MatchedReceiveVec as _, Source as _};
 use mpi::topology::{Communicator as _, SimpleCommunicator};
-use piola_ensemble::{Alone, Ranks};
+use piola_ensemble::{OneProcess, Ranks};
 
 /// The processes of `MPI_COMM_WORLD`.
 struct World(SimpleCommunicator);
@@ -34,7 +34,7 @@ impl Ranks for World {
 fn main() -> ExitCode {
     // Threads compute; this one alone speaks to the other processes.
     let Some((universe, _)) = mpi::initialize_with_threading(Threading::Funneled) else {
-        return piola_cli::program(&Alone);
+        return piola_cli::program(&OneProcess);
     };
     let exit = piola_cli::program(&World(universe.world()));
     // Ends MPI: every process comes here.

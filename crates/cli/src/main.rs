@@ -4,5 +4,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    piola_cli::program(&piola_ensemble::Alone)
+    piola_cli::program(&piola_ensemble::OneProcess)
 }

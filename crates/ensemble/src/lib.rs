@@ -19,7 +19,7 @@ pub use ensemble::{Ensemble, MOST_MEMBERS};
 pub use error::EnsembleError;
 pub use member::Member;
 pub use portion::Portion;
-pub use ranks::{Alone, Ranks, agree};
+pub use ranks::{OneProcess, Ranks, agree};
 pub use results::{Results, Statistics};
 pub use run::{Computed, Options, compute, compute_across, predicted_seconds};
 pub use variation::{Law, Random, ValueRange};

@@ -7,14 +7,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Ensemble, EnsembleError, Member};
 
-/// The processes of one run and the messages between them. [`Alone`] is the one process of a usual run.
+/// The processes of one run and the messages between them. [`OneProcess`] is a usual run.
 ///
 /// The program `piola` of the folder `mpi` of the repository has them from MPI. Messages between two processes arrive in the order in which they were sent.
 ///
 /// # Example
 /// ```
-/// use piola_ensemble::{Alone, Ranks};
-/// assert_eq!((Alone.rank(), Alone.count(), Alone.receive()), (0, 1, None));
+/// use piola_ensemble::{OneProcess, Ranks};
+/// assert_eq!((OneProcess.rank(), OneProcess.count(), OneProcess.receive()), (0, 1, None));
 /// ```
 pub trait Ranks {
     /// Which process this is, from 0. Process 0 keeps the journal and writes the results.
@@ -32,9 +32,9 @@ pub trait Ranks {
 /// # Example
 /// See [`Ranks`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Alone;
+pub struct OneProcess;
 
-impl Ranks for Alone {
+impl Ranks for OneProcess {
     fn rank(&self) -> usize {
         0
     }
@@ -104,8 +104,8 @@ pub(crate) fn ask(ranks: &dyn Ranks, request: &Request) -> Result<Reply, Ensembl
 ///
 /// # Example
 /// ```
-/// use piola_ensemble::{Alone, agree};
-/// assert!(agree(&Alone, Err("the scene is missing".to_owned())).is_err());
+/// use piola_ensemble::{OneProcess, agree};
+/// assert!(agree(&OneProcess, Err("the scene is missing".to_owned())).is_err());
 /// ```
 pub fn agree(ranks: &dyn Ranks, prepared: Result<&Ensemble, String>) -> Result<(), EnsembleError> {
     let own = prepared.map(Ensemble::identity);

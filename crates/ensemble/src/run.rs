@@ -12,7 +12,7 @@ use piola_scene::{SceneFile, run};
 use crate::crew::{Crew, pool};
 use crate::journal::{Journal, collected};
 use crate::ranks::{PAUSE, Reply, Request, ask, heard, say};
-use crate::{Alone, Ensemble, EnsembleError, Member, Portion, Ranks};
+use crate::{Ensemble, EnsembleError, Member, OneProcess, Portion, Ranks};
 
 /// How an ensemble is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,7 +83,7 @@ pub fn compute(
     options: Options,
     observer: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Computed, EnsembleError> {
-    compute_across(ensemble, folder, options, &Alone, observer)
+    compute_across(ensemble, folder, options, &OneProcess, observer)
 }
 
 /// [`compute`] on the processes of one run, each with its threads. All of them call it, after [`agree`](crate::agree).

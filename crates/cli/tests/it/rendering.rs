@@ -17,7 +17,8 @@ const MEASURE: &str = r"<script>addEventListener('load', () => {
     const least = all => all.reduce((a, b) => Math.min(a, b), 1e9);
     const figures = [...document.querySelectorAll('svg')].map(s => {
         const box = s.getBoundingClientRect();
-        const labels = [...s.querySelectorAll('text')].map(t => size(t) * t.getScreenCTM().a);
+        const scale = m => Math.hypot(m.a, m.b);
+        const labels = [...s.querySelectorAll('text')].map(t => size(t) * scale(t.getScreenCTM()));
         return [box.width, box.height, s.querySelectorAll('path,polyline,line,circle,polygon').length, least(labels)];
     });
     const texts = [...document.querySelectorAll('p,pre,td,th,h1,h2')].map(size);
@@ -67,7 +68,7 @@ fn report(name: &str, arguments: &[&str]) -> PathBuf {
 #[test]
 fn reports_have_every_figure_no_error_and_readable_text_on_a_phone() {
     let Some(browser) = chromium() else {
-        println!(
+        eprintln!(
             "1 test skipped: reports_have_every_figure_no_error_and_readable_text_on_a_phone: Chromium is not installed"
         );
         return;

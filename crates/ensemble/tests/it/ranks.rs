@@ -73,7 +73,8 @@ fn three_processes_give_the_bytes_of_one() {
     let ensemble = ensemble();
     let (one, three) = (Folder::new("one-process"), Folder::new("three-processes"));
     run(&ensemble, &one, Options::default());
-    let found = ended(&across(&[ensemble.clone()], three.path(), Options::default().with_threads(2), usize::MAX));
+    let found =
+        ended(&across(core::slice::from_ref(&ensemble), three.path(), Options::default().with_threads(2), usize::MAX));
     assert_eq!((found[0].computed, found[0].kept, found[0].interrupted), (40, 0, false));
     // Some by each; what process 0 has not computed itself was sent to it.
     assert!(found[1].computed + found[2].computed <= 40, "{found:?}");
@@ -87,9 +88,9 @@ fn interrupted_processes_go_on_as_one_and_as_three_and_do_nothing_twice() {
     let (whole, cut) = (Folder::new("whole-processes"), Folder::new("cut-processes"));
     run(&ensemble, &whole, Options::default());
     let options = Options::default().with_threads(1);
-    let first = ended(&across(&[ensemble.clone()], cut.path(), options, 5));
+    let first = ended(&across(core::slice::from_ref(&ensemble), cut.path(), options, 5));
     assert!(first[0].interrupted && 5 <= first[0].computed && first[0].computed < 40, "{first:?}");
-    let again = ended(&across(&[ensemble.clone()], cut.path(), options.with_resume(), 3));
+    let again = ended(&across(core::slice::from_ref(&ensemble), cut.path(), options.with_resume(), 3));
     assert_eq!(again[0].kept, first[0].computed);
     run(&ensemble, &cut, Options::default().with_resume());
     assert_eq!(bytes(&ensemble, &cut), bytes(&ensemble, &whole));

@@ -9,18 +9,13 @@
 
 use piola_kinematics::Holonomic;
 
-use super::{ConstrainedMotion, Constraints};
+use super::Constraints;
+use super::motion::{ConstrainedMotion, WITHIN};
 use crate::LagrangianError;
 use crate::{Forces, Potential};
 
-/// The share below which a stage is interpolated.
-pub(super) const WITHIN: f64 = 3e-3;
-
 /// The share at the nearest states beside it: the least, the wanted and the largest.
 const ASIDE: [f64; 3] = [1e-2, 1.5e-2, 2.2e-2];
-
-/// How often τ is changed.
-const TRIALS: usize = 12;
 
 const WEIGHTS: [f64; 3] = [15.0 / 20.0, -6.0 / 20.0, 1.0 / 20.0];
 
@@ -41,8 +36,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> ConstrainedMotion<'_
         if !(0.0 < step && step.is_finite()) {
             return false;
         }
-        let mut trials = 0..TRIALS;
-        while trials.next().is_some() {
+        for _ in 0..12 {
             match self.accelerate_at(t, y, step).map(|()| self.nearness()) {
                 Ok(share) if least <= share && share <= largest => {
                     return self.sum(t, y, step, acceleration).is_ok();

@@ -6,7 +6,6 @@ use piola_integrators::{Field, Tolerance};
 use piola_kinematics::internal::Passages;
 use piola_kinematics::{Holonomic, SingularPosition};
 
-use super::aside::WITHIN;
 use super::workspace::Workspace;
 use super::{Constrained, Constraints};
 use crate::LagrangianError;
@@ -22,6 +21,9 @@ const APART: f64 = 0.7;
 
 /// The least share below which a step must not end: there rounding, ε/x² at the distance x, exceeds the error of the method.
 const CLOSE_BY: f64 = 1e-3;
+
+/// The share below which accelerations are interpolated.
+pub(super) const WITHIN: f64 = 3e-3;
 
 /// How many such steps are refused, so that shorter ones are tried, and how many more are then accepted as they are.
 const REFUSED: u32 = 4;
