@@ -11,6 +11,7 @@ mod fmt;
 mod gallery;
 mod header;
 mod ledger;
+mod mpi;
 mod mutants;
 mod package;
 mod scenes;
@@ -62,6 +63,7 @@ const COMMANDS: &[Command] = &[
     weight::COMMAND,
     header::COMMAND,
     wheel::COMMAND,
+    mpi::COMMAND,
     mutants::COMMAND,
 ];
 

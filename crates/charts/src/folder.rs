@@ -50,16 +50,20 @@ impl Folder {
     /// # Errors
     /// [`ChartsError::Unwritable`].
     pub fn write(&self, name: &str, text: &str) -> Result<PathBuf, ChartsError> {
-        self.stage(name, text)?;
+        self.write_content(name, text.as_bytes())
+    }
+
+    fn write_content(&self, name: &str, content: &[u8]) -> Result<PathBuf, ChartsError> {
+        self.stage(name, content)?;
         self.publish(name)
     }
 
     /// Writes a file beside its place.
-    fn stage(&self, name: &str, text: &str) -> Result<(), ChartsError> {
+    fn stage(&self, name: &str, content: &[u8]) -> Result<(), ChartsError> {
         let temporary = self.path.join(temporary(name));
         let write = || {
             let mut file = std::fs::File::create(&temporary)?;
-            file.write_all(text.as_bytes())?;
+            file.write_all(content)?;
             file.sync_all()
         };
         write().map_err(|cause| self.unwritable(name, &cause))
@@ -103,10 +107,10 @@ pub struct Written {
 
 impl Written {
     /// Adds files to the set that was just written.
-    pub fn add<'n>(&mut self, folder: &Folder, files: impl IntoIterator<Item = (&'n str, String)>) {
+    pub fn add<'n, T: AsRef<[u8]>>(&mut self, folder: &Folder, files: impl IntoIterator<Item = (&'n str, T)>) {
         let mut list = folder.listed();
-        for (name, text) in files {
-            match folder.write(name, &text) {
+        for (name, content) in files {
+            match folder.write_content(name, content.as_ref()) {
                 Ok(path) => {
                     self.files.push(path);
                     list.retain(|other| other != name);
@@ -127,11 +131,11 @@ impl Written {
     /// places, `summary.json` last, and files of the old set that the new one lacks are removed. So a folder with a
     /// `summary.json` holds one whole set, whenever the program is killed.
     #[must_use]
-    pub fn of<'n>(folder: &Folder, files: impl IntoIterator<Item = (&'n str, String)>) -> Self {
+    pub fn of<'n, T: AsRef<[u8]>>(folder: &Folder, files: impl IntoIterator<Item = (&'n str, T)>) -> Self {
         let mut written = Self::default();
         let mut staged = Vec::new();
-        for (name, text) in files {
-            match folder.stage(name, &text) {
+        for (name, content) in files {
+            match folder.stage(name, content.as_ref()) {
                 Ok(()) => staged.push(name),
                 Err(error) => written.failures.push(error),
             }

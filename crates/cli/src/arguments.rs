@@ -12,6 +12,7 @@ use crate::intervals::IntervalArguments;
     name = "piola",
     version,
     about,
+    next_line_help = true,
     after_help = "Exit codes: 0 done; 1 failed or interrupted, what there is was written; 2 invalid input."
 )]
 pub(crate) struct Arguments {
@@ -28,6 +29,8 @@ pub(crate) enum Command {
     /// Look for mistakes in a scene and show all of them.
     Check(SceneArguments),
     /// Run a scene many times on all cores, with other values or random ones; killed, it goes on with --resume.
+    ///
+    /// The program of the folder `mpi` runs on several machines, as `mpirun -n 8 piola sweep SCENE ...`.
     Sweep(SweepArguments),
     /// Fit laws of rubber to measured stresses; compare them in a table, a summary and a figure.
     Fit(FitArguments),
@@ -72,6 +75,7 @@ pub(crate) struct SceneArguments {
 }
 
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub(crate) struct SweepArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
@@ -96,6 +100,9 @@ pub(crate) struct SweepArguments {
     /// Keep the members that a run before has computed.
     #[arg(long)]
     pub(crate) resume: bool,
+    /// Write members.parquet too: the table of members in Apache Parquet. Needs the feature `parquet` of the program.
+    #[arg(long)]
+    pub(crate) parquet: bool,
     /// Write report.html too: figures, tables and inputs in one file.
     #[arg(long)]
     pub(crate) report: bool,

@@ -11,8 +11,10 @@ use crate::arguments::SceneArguments;
 /// Rows of a table that are shown; the file has all.
 const ROWS: usize = 20;
 
+/// Wide text and tables scroll within their boxes. On a narrow screen so do figures: their labels would be too small if they shrank.
 const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;margin:0 auto;max-width:70rem;padding:1rem;color:#222}\
-h1,h2{line-height:1.2}svg{max-width:100%;height:auto}\
+h1,h2{line-height:1.2;overflow-wrap:anywhere}.figure{overflow-x:auto}svg{max-width:100%;height:auto}\
+@media(max-width:50rem){.figure svg{max-width:none}}\
 pre,.table{overflow-x:auto;background:#f6f6f6;padding:.5rem}\
 table{border-collapse:collapse;font-size:.85rem}td,th{padding:.1rem .5rem;text-align:right;white-space:nowrap}\
 th{border-bottom:1px solid #999}";
@@ -52,7 +54,7 @@ pub(crate) fn page(title: &str, texts: &[(&str, String)], written: &Written, inp
         match path.extension().and_then(|ending| ending.to_str()) {
             Some("svg") => {
                 let drawing = text.find("<svg").map_or("", |start| &text[start..]);
-                let _ = write!(html, "<h2>{}</h2>\n{drawing}\n", escaped(name));
+                let _ = write!(html, "<h2>{}</h2>\n<div class=\"figure\">{drawing}</div>\n", escaped(name));
             }
             Some("csv") => {
                 let _ = write!(html, "<h2>{}</h2>\n{}", escaped(name), table(&text));

@@ -3,8 +3,10 @@
 use core::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use piola_charts::Folder;
-use piola_ensemble::{Ensemble, EnsembleError, Options, Portion, Results, compute, predicted_seconds};
+use piola_charts::{Folder, Written};
+use piola_ensemble::{
+    Ensemble, EnsembleError, Options, Portion, Ranks, Results, agree, compute_across, predicted_seconds,
+};
 use piola_scene::{Document, SceneError};
 
 use crate::arguments::SweepArguments;
@@ -13,18 +15,29 @@ use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
 use crate::{Exit, html};
 
-pub(crate) fn sweep(arguments: &SweepArguments) -> Exit {
+pub(crate) fn sweep(arguments: &SweepArguments, ranks: &dyn Ranks) -> Exit {
+    if arguments.parquet && cfg!(not(feature = "parquet")) {
+        return refused(ranks);
+    }
     let interrupt = Interrupt::listen();
-    let prepared = prepare(arguments);
-    let (ensemble, folder, options) = match prepared {
+    let prepared = prepare(arguments, ranks);
+    let agreed = agree(ranks, prepared.as_ref().map(|prepared| &prepared.0).map_err(ToString::to_string));
+    let (ensemble, folder, options) = match prepared.and_then(|prepared| agreed.map(|()| prepared)) {
         Ok(prepared) => prepared,
         Err(error) => {
-            failure(&error, arguments.scene.json);
+            if ranks.rank() == 0 {
+                failure(&error, arguments.scene.json);
+            }
             return Exit::Invalid;
         }
     };
+    let Some(folder) = folder else {
+        // Process 0 tells what there is to tell.
+        let computed = compute_across(&ensemble, Path::new(""), options, ranks, |_| ControlFlow::Continue(()));
+        return if computed.is_ok() { Exit::Done } else { Exit::Failed };
+    };
     let mut progress = ProgressLine::new("sweep", 1);
-    let computed = compute(&ensemble, folder.path(), options, |share| {
+    let computed = compute_across(&ensemble, folder.path(), options, ranks, |share| {
         progress.update(share);
         if interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
@@ -43,6 +56,10 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Exit {
     match collected {
         Ok((_, Some(results))) => {
             let mut written = results.write(&folder);
+            if let Err(error) = add_parquet(arguments, &results, (&folder, &mut written)) {
+                failure(&error, arguments.scene.json);
+                return Exit::Failed;
+            }
             if arguments.report {
                 let title = format!("Sweep of {}", arguments.scene.scene.display());
                 html::add(&arguments.scene, &title, &[("Results", results.report())], (&folder, &mut written));
@@ -74,7 +91,41 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Exit {
     }
 }
 
-fn prepare(arguments: &SweepArguments) -> Result<(Ensemble, Folder, Options), EnsembleError> {
+/// Without the feature.
+fn refused(ranks: &dyn Ranks) -> Exit {
+    if ranks.rank() == 0 {
+        note(
+            "error: this program is built without Parquet; build it with the feature `parquet`:\n\
+             cargo run --release --features parquet -- sweep SCENE --vary PATH=FROM:TO:COUNT --parquet",
+        );
+    }
+    Exit::Invalid
+}
+
+/// Adds `members.parquet`, if it is asked for.
+#[cfg(feature = "parquet")]
+fn add_parquet(
+    arguments: &SweepArguments,
+    results: &Results<'_>,
+    (folder, written): (&Folder, &mut Written),
+) -> Result<(), EnsembleError> {
+    if arguments.parquet {
+        written.add(folder, [("members.parquet", results.parquet()?)]);
+    }
+    Ok(())
+}
+
+#[cfg(not(feature = "parquet"))]
+#[expect(clippy::unnecessary_wraps, reason = "as with the feature")]
+const fn add_parquet(_: &SweepArguments, _: &Results<'_>, _: (&Folder, &mut Written)) -> Result<(), EnsembleError> {
+    Ok(())
+}
+
+/// The ensemble, the folder of process 0, and how to compute.
+fn prepare(
+    arguments: &SweepArguments,
+    ranks: &dyn Ranks,
+) -> Result<(Ensemble, Option<Folder>, Options), EnsembleError> {
     let ranges = arguments.ranges.iter().map(|text| text.parse()).collect::<Result<Vec<_>, _>>()?;
     let random = arguments.random.iter().map(|text| text.parse()).collect::<Result<Vec<_>, _>>()?;
     let path = &arguments.scene.scene;
@@ -90,7 +141,11 @@ fn prepare(arguments: &SweepArguments) -> Result<(Ensemble, Folder, Options), En
     if arguments.resume {
         options = options.with_resume();
     }
-    let cores = options.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
+    if ranks.rank() != 0 {
+        return Ok((ensemble, None, options));
+    }
+    let cores = options.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1)
+        * ranks.count();
     if let Some(seconds) = predicted_seconds(&ensemble, options.part)?
         && !arguments.yes
         && MOST_SECONDS < seconds / cores as f64
@@ -101,5 +156,5 @@ fn prepare(arguments: &SweepArguments) -> Result<(Ensemble, Folder, Options), En
     let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let beside: PathBuf = Path::new("out").join(format!("sweep-{name}"));
     let folder = Folder::prepare(arguments.out.as_ref().unwrap_or(&beside))?;
-    Ok((ensemble, folder, options))
+    Ok((ensemble, Some(folder), options))
 }

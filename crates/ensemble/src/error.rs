@@ -59,6 +59,20 @@ pub enum EnsembleError {
         /// The operating system's word.
         cause: String,
     },
+    /// A process of several cannot begin or cannot go on.
+    #[error("process {rank} of the run: {cause}")]
+    Process {
+        /// Which, from 0.
+        rank: usize,
+        /// Its word.
+        cause: String,
+    },
+    /// The table of members cannot be written as Parquet.
+    #[error("the table of members cannot be written as Parquet: {cause}; valid: the table as CSV")]
+    Parquet {
+        /// The word of the writer.
+        cause: String,
+    },
     /// The scene cannot be read.
     #[error(transparent)]
     Scene(#[from] SceneError),

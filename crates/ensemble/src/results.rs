@@ -37,8 +37,8 @@ use crate::{Ensemble, EnsembleError, Member};
 /// ```
 #[derive(Debug, Clone)]
 pub struct Results<'e> {
-    ensemble: &'e Ensemble,
-    members: Vec<Member>,
+    pub(crate) ensemble: &'e Ensemble,
+    pub(crate) members: Vec<Member>,
 }
 
 /// Statistics of one quantity.

@@ -1,15 +1,18 @@
-//! Computes members on all cores.
+//! Computes members on all cores, and on several machines.
 
 use core::ops::ControlFlow;
-use core::sync::atomic::{AtomicBool, Ordering};
+use core::sync::atomic::AtomicBool;
+use core::time::Duration;
+use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::mpsc;
+use std::time::Instant;
 
 use piola_scene::{SceneFile, run};
-use rayon::prelude::*;
 
+use crate::crew::{Crew, pool};
 use crate::journal::{Journal, collected};
-use crate::{Ensemble, EnsembleError, Portion};
+use crate::ranks::{PAUSE, Reply, Request, ask, heard, say};
+use crate::{Ensemble, EnsembleError, Member, OneProcess, Portion, Ranks};
 
 /// How an ensemble is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,55 +81,208 @@ pub fn compute(
     ensemble: &Ensemble,
     folder: &Path,
     options: Options,
+    observer: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<Computed, EnsembleError> {
+    compute_across(ensemble, folder, options, &OneProcess, observer)
+}
+
+/// [`compute`] on the processes of one run, each with its threads. All of them call it, after [`agree`](crate::agree).
+///
+/// Process 0 hands members out, receives their numbers and keeps the journal; only it uses the folder and the observer. So the
+/// machines need not share a folder, and the journal is that of one process: a killed run goes on with any number of processes.
+///
+/// # Errors
+/// Those of [`compute`]; [`EnsembleError::Process`].
+///
+/// # Example
+/// ```no_run
+/// # fn example(ensemble: &piola_ensemble::Ensemble, ranks: &dyn piola_ensemble::Ranks) -> Result<(), piola_ensemble::EnsembleError> {
+/// use std::ops::ControlFlow;
+///
+/// use piola_ensemble::{Options, Results, agree, compute_across};
+/// let folder = std::path::Path::new("sweep");
+/// agree(ranks, Ok(ensemble))?;
+/// compute_across(ensemble, folder, Options::default(), ranks, |_| ControlFlow::Continue(()))?;
+/// if ranks.rank() == 0 {
+///     println!("{}", Results::collect(ensemble, folder)?.report());
+/// }
+/// # Ok(())
+/// # }
+/// ```
+pub fn compute_across(
+    ensemble: &Ensemble,
+    folder: &Path,
+    options: Options,
+    ranks: &dyn Ranks,
     mut observer: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Computed, EnsembleError> {
-    let mut journal = Journal::open(folder, ensemble, options.part, options.resume)?;
-    let done = if options.resume { collected(folder, ensemble)? } else { std::collections::BTreeMap::new() };
+    let pool = pool(options.threads)?;
+    let stop = AtomicBool::new(false);
+    let crew = Crew::new(ensemble, &stop);
+    if ranks.rank() != 0 {
+        return pool.in_place_scope(|scope| follow(ranks, crew, pool.current_num_threads(), scope));
+    }
+    let journal = Journal::open(folder, ensemble, options.part, options.resume);
+    let done = if options.resume { collected(folder, ensemble) } else { Ok(BTreeMap::new()) };
+    let journal = journal.and_then(|journal| done.map(|done| (journal, done)));
+    let (journal, done) = match journal {
+        Ok(opened) => opened,
+        Err(error) => {
+            dismiss(ranks)?;
+            return Err(error);
+        }
+    };
     let members = (0..ensemble.members()).filter(|&member| options.part.has(member));
     let (kept, left): (Vec<u64>, Vec<u64>) = members.partition(|member| done.contains_key(member));
     drop(done);
-    let all = (kept.len() + left.len()).max(1) as f64;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads.unwrap_or(0)).build();
-    let pool = pool.map_err(|error| EnsembleError::Argument {
-        argument: error.to_string(),
-        valid: "a number of threads that the machine starts",
-    })?;
-    let stop = AtomicBool::new(false);
-    let (sender, receiver) = mpsc::channel();
-    let mut computed = 0;
-    let mut failure = None;
-    std::thread::scope(|scope| {
-        let (stop, left) = (&stop, &left);
-        scope.spawn(move || {
-            pool.install(|| {
-                left.par_iter().with_max_len(1).for_each_with(sender, |sender, &member| {
-                    let stopped = || stop.load(Ordering::Relaxed);
-                    if !stopped()
-                        && let Some(computed) = ensemble.member_until(member, stopped)
-                    {
-                        // Nobody listens any more only where the journal could not be written.
-                        let _ = sender.send(computed);
-                    }
-                });
-            });
-        });
-        for member in receiver {
-            if let Err(error) = journal.add(&member) {
-                failure = Some(error);
-                stop.store(true, Ordering::Relaxed);
-                break;
+    let mut lead = Lead {
+        journal,
+        left,
+        next: 0,
+        kept: kept.len() as u64,
+        computed: 0,
+        working: ranks.count() - 1,
+        stopped: false,
+        failure: None,
+    };
+    let ended = pool.in_place_scope(|scope| lead.run(ranks, crew, pool.current_num_threads(), scope, &mut observer));
+    ended.and(lead.failure.map_or(Ok(()), Err))?;
+    let interrupted = lead.computed < lead.left.len() as u64;
+    Ok(Computed { computed: lead.computed, kept: lead.kept, interrupted })
+}
+
+/// Members for each thread that wait or are computed.
+const QUEUE: usize = 8;
+
+/// Process 0.
+struct Lead {
+    journal: Journal,
+    left: Vec<u64>,
+    /// The first of `left` that nobody has.
+    next: usize,
+    kept: u64,
+    computed: u64,
+    /// Other processes that have not ended.
+    working: usize,
+    stopped: bool,
+    failure: Option<EnsembleError>,
+}
+
+impl Lead {
+    fn run<'c>(
+        &mut self,
+        ranks: &dyn Ranks,
+        mut crew: Crew<'c>,
+        threads: usize,
+        scope: &rayon::Scope<'c>,
+        observer: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<(), EnsembleError> {
+        loop {
+            while !self.stopped && crew.unfinished() < QUEUE * threads && self.next < self.left.len() {
+                crew.take(scope, self.left[self.next]);
+                self.next += 1;
             }
-            computed += 1;
-            if observer((kept.len() as f64 + computed as f64) / all).is_break() {
-                stop.store(true, Ordering::Relaxed);
+            if crew.unfinished() == 0 && self.working == 0 {
+                return Ok(());
+            }
+            if let Some(member) = crew.finished(PAUSE) {
+                self.keep(&member, observer);
+            }
+            while let Some((rank, request)) = heard(ranks)? {
+                let reply = self.answer(request, ranks.count(), observer);
+                self.working -= usize::from(matches!(reply, Reply::End));
+                say(ranks, rank, &reply);
+            }
+            if self.stopped {
+                crew.stop();
             }
         }
-    });
-    if let Some(error) = failure {
-        return Err(error);
     }
-    let interrupted = computed < left.len() as u64;
-    Ok(Computed { computed, kept: kept.len() as u64, interrupted })
+
+    fn keep(&mut self, member: &Member, observer: &mut dyn FnMut(f64) -> ControlFlow<()>) {
+        if self.failure.is_some() {
+            return;
+        }
+        if let Err(error) = self.journal.add(member) {
+            (self.failure, self.stopped) = (Some(error), true);
+            return;
+        }
+        self.computed += 1;
+        let all = (self.kept + self.left.len() as u64).max(1);
+        if observer((self.kept + self.computed) as f64 / all as f64).is_break() {
+            self.stopped = true;
+        }
+    }
+
+    fn answer(&mut self, request: Request, count: usize, observer: &mut dyn FnMut(f64) -> ControlFlow<()>) -> Reply {
+        let Request::Finished { members, unfinished, wanted } = request else { return Reply::End };
+        for member in &members {
+            self.keep(member, observer);
+        }
+        let rest = if self.stopped { &[] } else { &self.left[self.next..] };
+        if unfinished == 0 && rest.is_empty() {
+            return Reply::End;
+        }
+        if self.stopped {
+            return Reply::Stop;
+        }
+        // Towards the end less and less, so that all processes end at the same time.
+        let wanted = usize::try_from(wanted).unwrap_or(usize::MAX);
+        let taken = rest[..wanted.min(rest.len().div_ceil(2 * count))].to_vec();
+        self.next += taken.len();
+        Reply::Take(taken)
+    }
+}
+
+/// Sends the other processes home.
+fn dismiss(ranks: &dyn Ranks) -> Result<(), EnsembleError> {
+    let mut working = ranks.count() - 1;
+    while 0 < working {
+        match heard::<Request>(ranks)? {
+            Some((rank, _)) => {
+                say(ranks, rank, &Reply::End);
+                working -= 1;
+            }
+            None => std::thread::sleep(PAUSE),
+        }
+    }
+    Ok(())
+}
+
+/// Another process: it computes what process 0 hands out.
+fn follow<'c>(
+    ranks: &dyn Ranks,
+    mut crew: Crew<'c>,
+    threads: usize,
+    scope: &rayon::Scope<'c>,
+) -> Result<Computed, EnsembleError> {
+    /// Finished members are sent after this time at the latest.
+    const LATEST: Duration = Duration::from_millis(20);
+    let (mut members, mut computed) = (Vec::new(), 0);
+    loop {
+        // Short members are finished by the hundred between two messages: the more, the more are wanted at once.
+        let wanted = (2 * (threads + members.len())).saturating_sub(crew.unfinished()) as u64;
+        computed += members.len() as u64;
+        let unfinished = crew.unfinished() as u64;
+        match ask(ranks, &Request::Finished { members: core::mem::take(&mut members), unfinished, wanted })? {
+            Reply::Take(taken) => taken.into_iter().for_each(|member| crew.take(scope, member)),
+            Reply::Stop => {
+                crew.stop();
+                while 0 < crew.unfinished() {
+                    members.extend(crew.finished(LATEST));
+                }
+                continue;
+            }
+            Reply::End => return Ok(Computed { computed, kept: 0, interrupted: false }),
+        }
+        let begun = Instant::now();
+        loop {
+            members.extend(crew.finished(PAUSE));
+            if LATEST <= begun.elapsed() || (crew.unfinished() < threads && !members.is_empty()) {
+                break;
+            }
+        }
+    }
 }
 
 /// About how many seconds of one core the members of a part take, by a trial of the first member.

@@ -8,7 +8,7 @@ use piola_registration::{DisplacementMap, ImageGrid};
 use crate::contents::Contents;
 use crate::error::ImagesError;
 use crate::file;
-use crate::format::{Format, decode, encode};
+use crate::format::{Format, decode, decode_content, encode};
 use crate::picture::{Picture, PicturePlacement};
 use crate::{npy, sample_type::SampleType};
 
@@ -73,7 +73,19 @@ impl<const D: usize> DisplacementField<D> {
     /// `NotPerpendicular`.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ImagesError> {
         let path = path.as_ref();
-        let mut contents = decode(path)?;
+        Self::of_contents(path, decode(path)?)
+    }
+
+    /// Reads the content of a NIfTI or NRRD file of vectors that is in memory. The end of `name` says the format, and errors name it.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read), but for [`ImagesError::Unreadable`].
+    pub fn from_content(name: impl AsRef<Path>, content: &[u8]) -> Result<Self, ImagesError> {
+        let name = name.as_ref();
+        Self::of_contents(name, decode_content(name, content)?)
+    }
+
+    fn of_contents(path: &Path, mut contents: Contents) -> Result<Self, ImagesError> {
         contents.check(path)?;
         if contents.sizes.len() != D {
             let valid = if D == 2 { "2 are asked for" } else { "3 are asked for" };

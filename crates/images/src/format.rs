@@ -34,16 +34,28 @@ impl Format {
 
 /// Reads a file of a format that its name says.
 pub(crate) fn decode(path: &Path) -> Result<Contents, ImagesError> {
-    let format = Format::of(path).filter(|format| *format != Format::Npy).ok_or_else(|| {
+    let format = readable(path)?;
+    decode_as(format, path, &file::read(path)?)
+}
+
+/// Reads the content of a file; its name says the format.
+pub(crate) fn decode_content(name: &Path, content: &[u8]) -> Result<Contents, ImagesError> {
+    decode_as(readable(name)?, name, content)
+}
+
+fn readable(path: &Path) -> Result<Format, ImagesError> {
+    Format::of(path).filter(|format| *format != Format::Npy).ok_or_else(|| {
         let (purpose, valid) = ("reading an image", ".png, .tif, .tiff, .nii, .nii.gz or .nrrd");
         ImagesError::UnknownFormat { path: path.into(), purpose, valid }
-    })?;
-    let content = file::read(path)?;
+    })
+}
+
+fn decode_as(format: Format, path: &Path, content: &[u8]) -> Result<Contents, ImagesError> {
     match format {
-        Format::Png => png::decode(path, &content),
-        Format::Tiff => tiff::decode(path, &content),
-        Format::Nifti { .. } => nifti::decode(path, &content),
-        Format::Nrrd | Format::Npy => nrrd::decode(path, &content),
+        Format::Png => png::decode(path, content),
+        Format::Tiff => tiff::decode(path, content),
+        Format::Nifti { .. } => nifti::decode(path, content),
+        Format::Nrrd | Format::Npy => nrrd::decode(path, content),
     }
 }
 

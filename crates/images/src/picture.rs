@@ -8,7 +8,7 @@ use piola_registration::{Image, ImageGrid};
 use crate::contents::{Contents, usual_directions};
 use crate::error::ImagesError;
 use crate::file;
-use crate::format::{decode, encode};
+use crate::format::{decode, decode_content, encode};
 use crate::sample_type::SampleType;
 
 /// The largest cosine of two axes that count as perpendicular: headers hold single precision.
@@ -95,12 +95,29 @@ impl AnyPicture {
     /// [`ImagesError`], as [`Picture::read`].
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ImagesError> {
         let path = path.as_ref();
-        let contents = scalar(path, decode(path)?)?;
-        Ok(if contents.sizes.len() == 2 {
-            Self::Plane(Picture { contents })
-        } else {
-            Self::Space(Picture { contents })
-        })
+        Ok(Self::of_contents(scalar(path, decode(path)?)?))
+    }
+
+    /// Reads the content of a PNG, TIFF, NIfTI or NRRD file that is in memory. The end of `name` says the format, and errors name it.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read), but for [`ImagesError::Unreadable`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_images::AnyPicture;
+    /// let content = b"NRRD0004\ntype: uint8\ndimension: 2\nsizes: 2 2\nencoding: ascii\n\n1 2 3 4";
+    /// let AnyPicture::Plane(picture) = AnyPicture::from_content("four.nrrd", content)? else { panic!("two dimensions") };
+    /// assert_eq!(picture.values(), [1.0, 2.0, 3.0, 4.0]);
+    /// # Ok::<(), piola_images::ImagesError>(())
+    /// ```
+    pub fn from_content(name: impl AsRef<Path>, content: &[u8]) -> Result<Self, ImagesError> {
+        let name = name.as_ref();
+        Ok(Self::of_contents(scalar(name, decode_content(name, content)?)?))
+    }
+
+    fn of_contents(contents: Contents) -> Self {
+        if contents.sizes.len() == 2 { Self::Plane(Picture { contents }) } else { Self::Space(Picture { contents }) }
     }
 }
 

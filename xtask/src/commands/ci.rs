@@ -1,6 +1,6 @@
 //! `cargo xtask ci`
 
-use super::{Command, clippy, docs, errors, features, fmt, ledger, package, scenes, test, tidy};
+use super::{Command, clippy, docs, errors, features, fmt, ledger, mpi, package, scenes, test, tidy};
 use crate::options::Options;
 
 /// In the order that fails soonest for the least time.
@@ -15,13 +15,14 @@ const PARTS: &[&Command] = &[
     &features::COMMAND,
     &package::COMMAND,
     &scenes::COMMAND,
+    &mpi::COMMAND,
 ];
 
 pub(super) const COMMAND: Command = Command {
     name: "ci",
     usage: "[--skip COMMAND]...",
     help: "everything that must hold before a change goes in
-It is the steps of fmt, tidy, clippy, test, docs, ledger, errors, features, package and scenes, in this order; `--skip test`,
+It is the steps of fmt, tidy, clippy, test, docs, ledger, errors, features, package, scenes and mpi, in this order; `--skip test`,
 say, leaves the steps of one out. clippy checks the benches, too: nothing is gained by generating their code.",
     prepare: |shell, workspace, options| {
         let skipped = options.values("--skip")?;

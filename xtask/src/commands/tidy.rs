@@ -3,6 +3,7 @@
 pub(super) mod crates;
 mod imports;
 mod names;
+mod reach;
 mod sources;
 mod testdata;
 
@@ -22,7 +23,8 @@ crates    the arrows between the crates are those of ARCHITECTURE.md; internal d
           internal development dependencies only a path; README, LICENSE and metadata in each crate that is published;
           no crate is larger than its limit; the facade's table names its features
 testdata  every reference value says where it came from
-gallery   docs/gallery.md has every scene",
+gallery   docs/gallery.md has every scene
+reach     docs/reference/reach.md has every public module",
     prepare: |_, workspace, _| {
         Ok(vec![
             Step::check(
@@ -54,6 +56,11 @@ gallery   docs/gallery.md has every scene",
                 "tidy: gallery",
                 || report(gallery::missing(workspace), "the gallery has every scene"),
                 "`cargo xtask gallery` writes the page and its figures",
+            ),
+            Step::check(
+                "tidy: reach",
+                || report(reach::check(workspace), "the table of what is reached has every public module"),
+                "docs/reference/reach.md says which scene key or verb reaches each module, or why none does",
             ),
         ])
     },

@@ -295,6 +295,35 @@ fn a_report_is_one_file_with_figures_tables_plan_and_inputs() {
     assert!(!html.contains("src=") && !html.contains("href="));
 }
 
+#[test]
+fn help_of_every_verb_has_lines_of_at_most_80_columns() {
+    let folder = Folder::new("help");
+    let top = out(&folder.piola(&["--help"]));
+    let (_, list) = top.split_once("Commands:").unwrap_or_default();
+    let (list, _) = list.split_once("Options:").unwrap_or_default();
+    let verbs = list.lines().filter_map(|line| line.strip_prefix("  "));
+    let verbs: Vec<&str> = verbs.filter(|verb| !verb.starts_with(' ') && *verb != "help").collect();
+    assert!(14 <= verbs.len() && verbs.contains(&"sweep"), "{verbs:?}");
+    let absent = |verb: &str| match verb {
+        "nonlinear" => cfg!(not(feature = "nonlinear")),
+        "register" => cfg!(not(feature = "register")),
+        "specimen" => cfg!(not(feature = "specimens")),
+        _ => false,
+    };
+    for arguments in verbs.iter().map(|verb| vec![*verb]).chain([vec![]]) {
+        for flag in ["--help", "-h"] {
+            let output = folder.piola(&[&arguments[..], &[flag]].concat());
+            // A program without a verb says which feature has it.
+            let built = !arguments.iter().any(|verb| absent(verb));
+            assert_eq!(output.status.code(), Some(if built { 0 } else { 2 }), "{arguments:?}: {}", err(&output));
+            let text = out(&output);
+            assert!(!built || text.contains("Usage: piola"), "{text}");
+            let long = text.lines().find(|line| 80 < line.chars().count());
+            assert_eq!(long, None, "{arguments:?} {flag}");
+        }
+    }
+}
+
 /// Discharges of a fluid of viscosity 2 in a pipe of radius 1, π c/16.
 fn discharges() -> String {
     let row = |c: i32| format!("{c},{}\n", core::f64::consts::PI * f64::from(c) / 16.0);

@@ -6,5 +6,6 @@ mod hostile;
 mod intervals;
 mod measurements;
 mod register;
+mod rendering;
 mod resume;
 mod sweeps;

@@ -102,3 +102,24 @@ fn what_cannot_be_swept_exits_with_2_and_writes_nothing() {
     assert!(told.contains("days on") && told.contains("--yes"), "{told}");
     assert!(!folder.0.join("out").exists());
 }
+
+#[test]
+fn a_table_in_parquet_is_written_beside_the_csv_or_refused_by_the_feature() {
+    let folder = Folder::new("parquet");
+    let (code, shown, told) = folder.sweep(&["--vary", "joint.elbow.angle=0:1:3 rad", "--parquet", "--out", "three"]);
+    let path = folder.0.join("three/members.parquet");
+    if cfg!(feature = "parquet") {
+        assert_eq!(code, Some(0), "{told}");
+        assert!(shown.contains("members.parquet"), "{shown}");
+        let content = std::fs::read(path).unwrap_or_else(|error| panic!("{error}"));
+        assert!(content.starts_with(b"PAR1") && content.ends_with(b"PAR1"));
+        // Without it the next sweep leaves no table of this one.
+        let (code, ..) = folder.sweep(&["--vary", "joint.elbow.angle=0:1:4 rad", "--out", "three"]);
+        assert_eq!(code, Some(0));
+        assert!(!folder.0.join("three/members.parquet").exists());
+    } else {
+        assert_eq!(code, Some(2), "{shown}");
+        assert!(told.contains("build it with the feature `parquet`"), "{told}");
+        assert!(!path.exists());
+    }
+}

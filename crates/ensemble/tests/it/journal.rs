@@ -12,24 +12,24 @@ pub(crate) fn orbit() -> Document {
     Document::parse("orbit.toml", text)
 }
 
-fn ensemble() -> Ensemble {
+pub(crate) fn ensemble() -> Ensemble {
     let ranges = vec!["body.comet.semi_major_axis=1:4:8".parse().unwrap_or_else(|error| panic!("{error}"))];
     let random = vec!["body.comet.eccentricity=uniform(0, 0.8)".parse().unwrap_or_else(|error| panic!("{error}"))];
     Ensemble::new(orbit(), ranges, random, 5, 3).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A folder of its own, removed at the end.
-struct Folder(PathBuf);
+pub(crate) struct Folder(PathBuf);
 
 impl Folder {
-    fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("piola-ensemble-{}-{name}", std::process::id()));
         let _ = std::fs::remove_dir_all(&path);
         std::fs::create_dir_all(&path).unwrap_or_else(|error| panic!("{error}"));
         Self(path)
     }
 
-    fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.0
     }
 }
@@ -41,12 +41,12 @@ impl Drop for Folder {
 }
 
 /// Table and summary of what a folder holds.
-fn bytes(ensemble: &Ensemble, folder: &Folder) -> [String; 3] {
+pub(crate) fn bytes(ensemble: &Ensemble, folder: &Folder) -> [String; 3] {
     let results = Results::collect(ensemble, folder.path()).unwrap_or_else(|error| panic!("{error}"));
     [results.table(), results.summary(), results.report()]
 }
 
-fn run(ensemble: &Ensemble, folder: &Folder, options: Options) {
+pub(crate) fn run(ensemble: &Ensemble, folder: &Folder, options: Options) {
     let found = compute(ensemble, folder.path(), options, |_| ControlFlow::Continue(()));
     assert!(!found.unwrap_or_else(|error| panic!("{error}")).interrupted);
 }

@@ -2,3 +2,6 @@
 
 mod journal;
 mod laws;
+#[cfg(feature = "parquet")]
+mod parquet;
+mod ranks;

@@ -4,6 +4,7 @@ mod damaged;
 mod fields;
 mod fixtures;
 mod foreign;
+mod fuzz;
 mod headers;
 mod orientations;
 mod real;

@@ -22,6 +22,7 @@
 //! are given. Constraints that contradict each other are refused by name.
 
 mod acceleration;
+mod aside;
 mod assembly;
 mod branch;
 mod evaluation;

@@ -22,6 +22,9 @@ const APART: f64 = 0.7;
 /// The least share below which a step must not end: there rounding, ε/x² at the distance x, exceeds the error of the method.
 const CLOSE_BY: f64 = 1e-3;
 
+/// The share below which accelerations are interpolated.
+pub(super) const WITHIN: f64 = 3e-3;
+
 /// How many such steps are refused, so that shorter ones are tried, and how many more are then accepted as they are.
 const REFUSED: u32 = 4;
 const ACCEPTED: u32 = 40;
@@ -40,16 +43,17 @@ const ACCEPTED: u32 = 40;
 ///
 /// # Accuracy
 /// At the distance x from a singular position rounding moves a state that is brought onto the branch by ε/x². Runs through
-/// such positions take tolerances down to about 1e-11. A run with a tighter one may end at such a position with
+/// such positions take tolerances down to about 1e-10: there, nearer than some thousandths of the usual share, accelerations are
+/// interpolated from both sides. A run with a tighter one may end at such a position with
 /// [`ConstraintError::Singular`](crate::ConstraintError::Singular).
 ///
 /// # Example
 /// See [`Constrained::integrate`].
 #[derive(Clone, Debug)]
 pub struct ConstrainedMotion<'a, S, P, F, C> {
-    system: &'a Constrained<S, P, F, C>,
-    coordinates: usize,
-    work: Workspace,
+    pub(super) system: &'a Constrained<S, P, F, C>,
+    pub(super) coordinates: usize,
+    pub(super) work: Workspace,
     /// The number of independent constraints, once they have been chosen, and the order in which they were.
     rank: Option<usize>,
     order: Vec<usize>,
@@ -62,14 +66,20 @@ pub struct ConstrainedMotion<'a, S, P, F, C> {
     /// The independent constraint with the least share, at the last look.
     weakest: usize,
     /// A state before its projection, or brought onto the branch, and scratch of the same length.
-    stage: Vec<f64>,
-    scratch: Vec<f64>,
+    pub(super) stage: Vec<f64>,
+    pub(super) scratch: Vec<f64>,
+    /// An acceleration.
+    pub(super) one: Vec<f64>,
+    /// The time of the last state that was not close by a singular position, and its share.
+    pub(super) apart: (f64, f64),
     /// Whether the step begins, and the next one would begin, beside a singular position.
     beside: [bool; 2],
     stops: bool,
     stopped: Option<SingularPosition>,
     /// How many states close by one singular position steps have ended at.
     close_by: u32,
+    /// How many states within the reach of interpolation steps have ended at, since the last position.
+    within: u32,
 }
 
 impl<S, P, F, C> ConstrainedMotion<'_, S, P, F, C> {
@@ -100,26 +110,38 @@ impl<S, P, F, C> ConstrainedMotion<'_, S, P, F, C> {
     }
     /// Forgets the run before: the next evaluation is the start of another one.
     pub fn restart(&mut self) {
-        (self.rank, self.stopped, self.close_by) = (None, None, 0);
+        (self.rank, self.stopped, self.close_by, self.within) = (None, None, 0, 0);
         (self.beside, self.usual_share) = ([false; 2], 0.0);
         self.largest.fill(0.0);
         self.passages.clear();
     }
 
     /// The least part of an independent constraint's gradient that is its own, of the largest so far: zero at a singular
-    /// position.
-    fn share(&mut self) -> f64 {
+    /// position. And the constraint.
+    fn least_share(&self) -> (f64, usize) {
         let independence = &self.work.independence;
-        for (largest, &size) in self.largest.iter_mut().zip(&independence.sizes) {
-            *largest = largest.max(size);
-        }
-        let mut share = 1.0;
+        let mut least = (1.0, self.weakest);
         for (place, &constraint) in independence.taken().iter().enumerate() {
             let own = independence.share(place) * independence.sizes[constraint] / self.largest[constraint];
-            if own < share {
-                (share, self.weakest) = (own, constraint);
+            if own < least.0 {
+                least = (own, constraint);
             }
         }
+        least
+    }
+
+    /// The same at any state, of the usual share.
+    pub(super) fn nearness(&self) -> f64 {
+        self.least_share().0 / self.usual_share
+    }
+
+    /// The same at a state on the branch, which may be the usual one.
+    fn share(&mut self) -> f64 {
+        for (largest, &size) in self.largest.iter_mut().zip(&self.work.independence.sizes) {
+            *largest = largest.max(size);
+        }
+        let (share, weakest) = self.least_share();
+        self.weakest = weakest;
         self.usual_share = self.usual_share.max(share);
         self.last_share = share / self.usual_share;
         self.last_share
@@ -147,10 +169,13 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
             weakest: 0,
             stage: vec![0.0; 2 * coordinates],
             scratch: vec![0.0; 2 * coordinates],
+            one: vec![0.0; coordinates],
+            apart: (0.0, 0.0),
             beside: [false; 2],
             stops: false,
             stopped: None,
             close_by: 0,
+            within: 0,
         }
     }
 
@@ -274,6 +299,8 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Field for Constraine
             self.rank = Some(self.work.independence.rank);
             self.share();
             self.passages.look(&self.work.gradients.rows, n, self.work.independence.taken(), t);
+        } else if self.beside[0] && self.is_within(t, y)? && self.interpolate(t, y, acceleration) {
+            // Rounding is too large here for what follows.
         } else if self.beside[0] {
             self.stage.copy_from_slice(y);
             let (q, v) = self.stage.split_at_mut(n);
@@ -295,14 +322,21 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Field for Constraine
         let before = self.rank.unwrap_or(self.work.independence.rank);
         let share = self.project_and_choose(t, y, before);
         if share.as_ref().is_ok_and(|&share| CLOSE_BY <= share) {
+            self.apart = (t, self.last_share);
             let taken = self.work.independence.taken();
             let found = self.passages.look(&self.work.gradients.rows, self.coordinates, taken, t);
             if self.stops && found.is_some() {
                 self.stopped = found;
             }
-            self.beside[1] = share.is_ok_and(|share| share < BESIDE);
+            self.beside[1] = self.last_share < BESIDE;
             if found.is_some() || !self.beside[1] {
-                self.close_by = 0;
+                (self.close_by, self.within) = (0, 0);
+            } else if self.last_share < WITHIN {
+                // Steps that stay so short never pass.
+                self.within += 1;
+                if REFUSED + ACCEPTED < self.within {
+                    self.stopped = Some(SingularPosition { t, condition: self.weakest });
+                }
             }
             return self.go_on();
         }

@@ -7,6 +7,7 @@ mod four_bar;
 mod laws;
 mod orders;
 mod singular;
+mod slider_crank;
 mod systems;
 mod traps;
 

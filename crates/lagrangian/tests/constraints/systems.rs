@@ -31,6 +31,11 @@ pub(crate) enum System {
     /// N parallelograms side by side: N + 1 posts that stand on the ground, and N rungs that join their tips; all rods of 1 kg
     /// and 1 m. Posts and rungs have their angles in turn; the ground is turned by an angle.
     Ladder { turn: f64 },
+    /// A crank and a rod of 1 kg and 1 m each, and a slider of 2 kg on the line of the crank's axis: the angles of crank and rod from
+    /// x, and the place of the slider. With crank and rod along each other across the rail, two motions meet.
+    SliderCrank,
+    /// The same without the rod's angle and mass: the angle of the crank, the place of the slider.
+    SliderOnRod,
     /// Particles of 1 kg, 2 kg, … at (q₀, q₁, q₂), …; without the last coordinate's inertia.
     Particles { last_has_mass: bool },
     /// A bead of 2 kg in polar coordinates (r, φ).
@@ -60,6 +65,14 @@ impl Holonomic for System {
                     bodies.body(&body(1.0, 1.0 / 12.0), start + along * half, Attitude::about_z(angle));
                     post = along;
                 }
+            }
+            Self::SliderCrank | Self::SliderOnRod => {
+                let (half, zero) = (T::lit(0.5), T::zero());
+                bodies.body(&body(1.0, 1.0 / 12.0), unit(q[0]) * half, Attitude::about_z(q[0]));
+                if let Self::SliderCrank = self {
+                    bodies.body(&body(1.0, 1.0 / 12.0), unit(q[0]) + unit(q[1]) * half, Attitude::about_z(q[1]));
+                }
+                bodies.particle(2.0, Vector3::new(q[q.len() - 1], zero, zero));
             }
             Self::Particles { last_has_mass } => {
                 let count = q.len().div_ceil(3);
@@ -199,18 +212,27 @@ pub(crate) enum Ties {
         n: usize,
         turn: f64,
     },
+    /// The rod of a slider-crank ends at the slider.
+    SliderCrank,
+    /// The pin of the crank and the slider are 1 m apart.
+    SliderOnRod,
+    /// The same at a distance l, and the slider is driven so that the crank turns at 1 rad/s: x = cos t + √(l² − sin² t). At dead
+    /// centre, where crank and rod lie along the rail, the rod and the drive hold the same.
+    DrivenSlider {
+        rod: f64,
+    },
 }
 
 impl Constraints for Ties {
     const TIME_DEPENDENT: bool = true;
     fn count(&self) -> usize {
         match self {
-            Self::FourBar => 2,
+            Self::FourBar | Self::SliderCrank | Self::DrivenSlider { .. } => 2,
             Self::FourBarThrice => 4,
             Self::Bricard | Self::Squeezer(_) => 6,
             Self::Linear(rows) => rows.len(),
             Self::Distances(pairs) => pairs.len(),
-            Self::Radius(_) => 1,
+            Self::Radius(_) | Self::SliderOnRod => 1,
             Self::Ladder { n, .. } => 2 * n,
         }
     }
@@ -251,6 +273,20 @@ impl Constraints for Ties {
                     let gap = unit(angles[0]) + unit(angles[1]) - unit(angles[2]) - ground;
                     out.copy_from_slice(&[gap.x, gap.y]);
                 }
+            }
+            Self::SliderCrank => {
+                let end = unit(q[0]) + unit(q[1]);
+                out.copy_from_slice(&[end.x - q[2], end.y]);
+            }
+            Self::SliderOnRod => {
+                let pin = unit(q[0]);
+                out[0] = T::lit(0.5) * ((pin.x - q[1]) * (pin.x - q[1]) + pin.y * pin.y - T::one());
+            }
+            Self::DrivenSlider { rod } => {
+                let (pin, turned) = (unit(q[0]), unit(t));
+                let squared = T::lit(rod * rod);
+                out[0] = T::lit(0.5) * ((pin.x - q[1]) * (pin.x - q[1]) + pin.y * pin.y - squared);
+                out[1] = q[1] - turned.x - (squared - turned.y * turned.y).sqrt();
             }
             Self::Radius(length) => out[0] = q[0] - T::lit(*length),
         }

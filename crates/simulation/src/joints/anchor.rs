@@ -19,6 +19,15 @@ pub struct Anchor {
     at: [f64; 3],
 }
 
+impl Anchor {
+    /// Gives the joints other numbers.
+    pub(super) fn renumber(&mut self, number: &dyn Fn(usize) -> usize) {
+        for joint in &mut self.path {
+            *joint = number(*joint);
+        }
+    }
+}
+
 impl JointTree {
     /// The point `at` (m) in the frame of a joint, or of the ground.
     ///

@@ -1,9 +1,9 @@
 //! The independent parts of a mechanism: what shares no coordinate, force or constraint.
 
-use super::{Anchor, Mechanism};
+use super::{Anchor, JointTree, Mechanism, Node};
 use crate::constraints::{Constraint, ConstraintKind};
 use crate::expression::{Expression, ExpressionNode, Variable};
-use crate::forces::{Force, ForceKind};
+use crate::forces::{Force, ForceKind, Weighted};
 
 /// A part of a mechanism that moves by itself.
 ///
@@ -154,17 +154,27 @@ impl Mechanism {
             |coordinate: usize| coordinates.iter().position(|other| *other == coordinate).unwrap_or_default();
         let is_here = |joint: usize| of_joints[joint].is_none_or(|other| other == island);
         let has_parts = |joint: usize| of_joints[joint].unwrap_or(0) == island;
-        let mut mechanism = self.clone();
-        let Mechanism { tree, .. } = &mut mechanism;
-        tree.freedom = coordinates.len();
-        tree.roots.retain(|root| is_here(*root));
-        for (joint, node) in tree.joints.iter_mut().enumerate() {
-            node.children.retain(|child| is_here(*child));
-            node.first = coordinates.iter().filter(|coordinate| **coordinate < node.first).count();
-            if !has_parts(joint) {
-                node.parts.clear();
+        // Only what is here is copied: the joints get new numbers.
+        let joints: Vec<usize> = (0..self.tree.joints.len()).filter(|joint| is_here(*joint)).collect();
+        let joint_number = |joint: usize| joints.binary_search(&joint).unwrap_or_default();
+        let joint_numbers =
+            |all: &[usize]| all.iter().copied().filter(|joint| is_here(*joint)).map(joint_number).collect::<Vec<_>>();
+        let node = |&joint: &usize| {
+            let Node { parent, offset, motion, first, ref children, ref parts } = self.tree.joints[joint];
+            Node {
+                parent: parent.map(joint_number),
+                offset,
+                motion,
+                first: coordinates.partition_point(|coordinate| *coordinate < first),
+                children: joint_numbers(children),
+                parts: if has_parts(joint) { parts.clone() } else { Vec::new() },
             }
-        }
+        };
+        let tree = JointTree {
+            joints: joints.iter().map(node).collect(),
+            roots: joint_numbers(&self.tree.roots),
+            freedom: coordinates.len(),
+        };
         let mut parts = Vec::new();
         let (mut stack, mut next): (Vec<usize>, usize) = (self.tree.roots.iter().rev().copied().collect(), 0);
         while let Some(joint) = stack.pop() {
@@ -179,11 +189,10 @@ impl Mechanism {
         let here = |coordinate: Option<usize>| coordinate.map_or(0, |coordinate| of_coordinates[coordinate]) == island;
         let moved = |anchors: &[Anchor]| anchors.iter().flat_map(|anchor| self.tree.coordinates_of(anchor)).next();
         let force = |(index, Force { name, kind }): (usize, &Force)| {
-            let kind = restricted(kind, &moved, &here, &numbered)?;
+            let kind = restricted(kind, &moved, &here, (&numbered, &joint_number))?;
             Some((index, Force { name: name.clone(), kind }))
         };
-        let forces;
-        (forces, mechanism.forces) = self.forces.iter().enumerate().filter_map(force).unzip();
+        let (forces, forces_here): (Vec<usize>, Vec<Force>) = self.forces.iter().enumerate().filter_map(force).unzip();
         let holds_here = |kind: &ConstraintKind| match kind {
             ConstraintKind::Distance { ends, .. } | ConstraintKind::Loop { ends } => here(moved(ends)),
             ConstraintKind::Rolling { centre, .. } => here(moved(core::slice::from_ref(centre))),
@@ -191,17 +200,32 @@ impl Mechanism {
         };
         let constraints: Vec<usize> =
             (0..self.constraints.len()).filter(|i| holds_here(&self.constraints[*i].kind)).collect();
-        mechanism.constraints = constraints.iter().map(|i| self.constraints[*i].clone()).collect();
-        for Constraint { kind, .. } in &mut mechanism.constraints {
-            if let ConstraintKind::Prescribed { coordinate, .. } = kind {
-                *coordinate = numbered(*coordinate);
+        let mut constraints_here: Vec<Constraint> = constraints.iter().map(|i| self.constraints[*i].clone()).collect();
+        for Constraint { kind, .. } in &mut constraints_here {
+            match kind {
+                ConstraintKind::Prescribed { coordinate, .. } => *coordinate = numbered(*coordinate),
+                ConstraintKind::Distance { ends, .. } | ConstraintKind::Loop { ends } => {
+                    for end in ends {
+                        end.renumber(&joint_number);
+                    }
+                }
+                ConstraintKind::Rolling { centre, .. } => centre.renumber(&joint_number),
             }
         }
-        mechanism.parts = parts.iter().map(|part| self.parts[*part].clone()).collect();
-        mechanism.coordinates = coordinates.iter().map(|i| self.coordinates[*i].clone()).collect();
-        mechanism.angular = coordinates.iter().map(|i| self.angular[*i]).collect();
-        mechanism.position = coordinates.iter().map(|i| self.position[*i]).collect();
-        mechanism.velocity = coordinates.iter().map(|i| self.velocity[*i]).collect();
+        let mechanism = Mechanism {
+            tree,
+            parts: parts.iter().map(|part| self.parts[*part].clone()).collect(),
+            coordinates: coordinates.iter().map(|i| self.coordinates[*i].clone()).collect(),
+            angular: coordinates.iter().map(|i| self.angular[*i]).collect(),
+            gravity: self.gravity,
+            position: coordinates.iter().map(|i| self.position[*i]).collect(),
+            velocity: coordinates.iter().map(|i| self.velocity[*i]).collect(),
+            forces: forces_here,
+            constraints: constraints_here,
+            simplify: self.simplify,
+            reactions: self.reactions,
+            questions: self.questions,
+        };
         Island { mechanism, parts, coordinates, forces, constraints }
     }
 }
@@ -212,7 +236,7 @@ fn restricted(
     kind: &ForceKind,
     moved: &dyn Fn(&[Anchor]) -> Option<usize>,
     here: &dyn Fn(Option<usize>) -> bool,
-    numbered: &dyn Fn(usize) -> usize,
+    (numbered, joint_number): (&dyn Fn(usize) -> usize, &dyn Fn(usize) -> usize),
 ) -> Option<ForceKind> {
     let renamed = |expression: &Expression| {
         expression.with_variables(|variable| match variable {
@@ -222,31 +246,44 @@ fn restricted(
         })
     };
     let is_here = |anchor: &Anchor| here(moved(core::slice::from_ref(anchor)));
-    let mut kind = kind.clone();
-    let acts = match &mut kind {
-        ForceKind::Spring { ends, .. } => here(moved(ends)),
-        ForceKind::JointSpring { coordinate, .. } => {
-            let acts = here(Some(*coordinate));
-            *coordinate = numbered(*coordinate);
-            acts
+    let anchored = |anchor: &Anchor| {
+        let mut anchor = anchor.clone();
+        anchor.renumber(joint_number);
+        anchor
+    };
+    let weighted = |points: &[Weighted]| -> Vec<Weighted> {
+        let own = points.iter().filter(|(anchor, _)| is_here(anchor));
+        own.map(|(anchor, weight)| (anchored(anchor), *weight)).collect()
+    };
+    let (acts, kind) = match *kind {
+        ForceKind::Spring { ref ends, stiffness, length, damping } => {
+            if !here(moved(ends)) {
+                return None;
+            }
+            let ends = ends.each_ref().map(anchored);
+            (true, ForceKind::Spring { ends, stiffness, length, damping })
         }
-        ForceKind::Uniform { points, .. } | ForceKind::Central { points, .. } => {
-            points.retain(|(anchor, _)| is_here(anchor));
-            !points.is_empty()
+        ForceKind::JointSpring { coordinate, stiffness, rest, damping } => {
+            let kind = ForceKind::JointSpring { coordinate: numbered(coordinate), stiffness, rest, damping };
+            (here(Some(coordinate)), kind)
         }
-        ForceKind::Drag { points, .. } => {
-            points.retain(is_here);
-            !points.is_empty()
+        ForceKind::Uniform { ref points, field } => {
+            let points = weighted(points);
+            (!points.is_empty(), ForceKind::Uniform { points, field })
         }
-        ForceKind::Motor { coordinate, force } => {
-            let acts = here(Some(*coordinate));
-            (*coordinate, *force) = (numbered(*coordinate), renamed(force));
-            acts
+        ForceKind::Central { ref points, centre, gm } => {
+            let points = weighted(points);
+            (!points.is_empty(), ForceKind::Central { points, centre, gm })
         }
-        ForceKind::Potential { energy } => {
-            let acts = here(variables(energy).next());
-            *energy = renamed(energy);
-            acts
+        ForceKind::Drag { ref points, linear, quadratic, wind } => {
+            let points: Vec<Anchor> = points.iter().filter(|point| is_here(point)).map(anchored).collect();
+            (!points.is_empty(), ForceKind::Drag { points, linear, quadratic, wind })
+        }
+        ForceKind::Motor { coordinate, ref force } => {
+            (here(Some(coordinate)), ForceKind::Motor { coordinate: numbered(coordinate), force: renamed(force) })
+        }
+        ForceKind::Potential { ref energy } => {
+            (here(variables(energy).next()), ForceKind::Potential { energy: renamed(energy) })
         }
     };
     acts.then_some(kind)

@@ -5,11 +5,11 @@ use core::ops::ControlFlow;
 
 use piola_kinematics::{Attitude, Inertia, RigidBody};
 use piola_lagrangian::Lagrangian;
-use piola_simulation::Outcome;
 use piola_simulation::constraints::{Constraint, ConstraintKind};
 use piola_simulation::forces::{Force, ForceKind};
 use piola_simulation::joints::{Coordinate, Joint, JointMotion, Mechanism, Part, PartKind};
 use piola_simulation::motion::{History, Method, MotionRun, PartReaction, System, TimeSpan, Timetable, simulate};
+use piola_simulation::{Outcome, SimulationError};
 use piola_testkit::{Tol, assert_close};
 
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
@@ -226,6 +226,28 @@ fn islands_with_constraints_keep_the_order_of_conditions_and_of_singular_positio
     let expected = [1.5, 1.0].map(|rate| 0.5 + (core::f64::consts::PI - 0.5) / rate);
     let tolerance = Tol::stated(0.1, "relative, of linear interpolation over a step of half a second");
     assert_close("singular positions", &[first.0, second.0], &expected, tolerance);
+}
+
+/// Of many pendulums each island copies its own joint, not those of the others.
+#[test]
+fn an_island_holds_its_own_joints_and_those_of_the_ground_alone() {
+    let (count, frame) = (50, 0);
+    let joints = (0..count).map(|k| match k {
+        0 => fixed(None, [0.0, 1.0, 0.0]),
+        _ => turning(Some(frame), [f64::from(k), 0.0, 0.0], &format!("turn {k}"), 0.1),
+    });
+    let bobs = (1..50).map(|joint| particle(joint, &format!("bob {joint}"), [0.0, 0.0, -1.0])).collect();
+    let islands = mechanism(joints.collect(), bobs).islands();
+    assert_eq!(islands.len(), 49);
+    for (k, island) in islands.iter().enumerate() {
+        assert_eq!(island.parts, [k]);
+        let refused = island.mechanism.tree.anchor(Some(2), [0.0; 3]);
+        assert_eq!(refused.err(), Some(SimulationError::NoSuchJoint { joint: 2, joints: 2 }));
+        // The bob hangs below its own place.
+        let end = island.mechanism.tree.anchor(Some(1), [0.0, 0.0, -1.0]).unwrap_or_else(|error| panic!("{error}"));
+        let place = island.mechanism.tree.place_of(&end, &|_| 0.0);
+        assert_eq!([place.x, place.y, place.z].map(f64::to_bits), [k as f64 + 1.0, 1.0, -1.0].map(f64::to_bits));
+    }
 }
 
 #[test]

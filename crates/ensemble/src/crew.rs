@@ -1,0 +1,73 @@
+//! The threads of one process, and the members they compute.
+
+use core::sync::atomic::{AtomicBool, Ordering};
+use core::time::Duration;
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+use crate::{Ensemble, EnsembleError, Member};
+
+/// Members that are computed or wait for a thread.
+pub(crate) struct Crew<'c> {
+    ensemble: &'c Ensemble,
+    stop: &'c AtomicBool,
+    sender: Sender<Option<Member>>,
+    receiver: Receiver<Option<Member>>,
+    unfinished: usize,
+}
+
+/// Says that a member is done with, even when its thread panics.
+struct Report {
+    member: Option<Member>,
+    sender: Sender<Option<Member>>,
+}
+
+impl Drop for Report {
+    fn drop(&mut self) {
+        // Nobody listens any more only after a panic.
+        let _ = self.sender.send(self.member.take());
+    }
+}
+
+impl<'c> Crew<'c> {
+    pub(crate) fn new(ensemble: &'c Ensemble, stop: &'c AtomicBool) -> Self {
+        let (sender, receiver) = channel();
+        Self { ensemble, stop, sender, receiver, unfinished: 0 }
+    }
+
+    pub(crate) const fn unfinished(&self) -> usize {
+        self.unfinished
+    }
+
+    pub(crate) fn take(&mut self, scope: &rayon::Scope<'c>, member: u64) {
+        let (ensemble, stop) = (self.ensemble, self.stop);
+        let report = Report { member: None, sender: self.sender.clone() };
+        self.unfinished += 1;
+        scope.spawn(move |_| {
+            // All of it belongs to the thread, not only the place of the member.
+            let mut report = report;
+            let stopped = || stop.load(Ordering::Relaxed);
+            if !stopped() {
+                report.member = ensemble.member_until(member, stopped);
+            }
+        });
+    }
+
+    /// A member that is finished, after no more than `wait`.
+    pub(crate) fn finished(&mut self, wait: Duration) -> Option<Member> {
+        let member = self.receiver.recv_timeout(wait).ok()?;
+        self.unfinished -= 1;
+        member
+    }
+
+    pub(crate) fn stop(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+}
+
+pub(crate) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, EnsembleError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
+    pool.map_err(|error| EnsembleError::Argument {
+        argument: error.to_string(),
+        valid: "a number of threads that the machine starts",
+    })
+}
