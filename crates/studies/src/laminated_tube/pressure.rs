@@ -44,6 +44,9 @@ impl From<UniformityError> for PressureRefusal {
 
 impl<'a> HeldTube<'a> {
     /// The tube without loads.
+    ///
+    /// # Errors
+    /// It has no state without loads.
     pub fn at_rest(layers: &'a Layers, law: &'a RubberLaw) -> Result<Self, UniformityError> {
         let tube = LaminatedTube::new(layers, layers.radii())?;
         let rest = tube.at_rest(law)?.state;
@@ -71,7 +74,10 @@ impl<'a> HeldTube<'a> {
             .collect()
     }
 
-    /// The first stretch at which a pressure is carried.
+    /// The first stretch at which a pressure, Pa, is carried, up to the largest stretch.
+    ///
+    /// # Errors
+    /// [`PressureRefusal`].
     pub fn stretch_at(&self, pressure: f64, largest: f64) -> Result<f64, PressureRefusal> {
         if pressure <= 0.0 {
             return Ok(1.0);

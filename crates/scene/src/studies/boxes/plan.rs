@@ -163,7 +163,7 @@ fn plan_table(name: &str, stride: usize, plan: &mut StudyPlan) {
     if 1 < stride {
         plan.skip(
             "points in the table",
-            format!("{name} has one of {stride} along each axis, {} rows at most", MOST_ROWS),
+            format!("{name} has one of {stride} along each axis, {MOST_ROWS} rows at most"),
         );
     }
 }

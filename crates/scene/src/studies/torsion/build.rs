@@ -8,6 +8,9 @@ use crate::model::Builder;
 use crate::studies::limits::{load_limit, reach};
 use piola_document::Record;
 
+/// The state of one of the rods at a twist.
+type StateAt = fn(&TwistedRod, f64) -> Result<TwistedTube, SolutionsError>;
+
 impl Builder<'_> {
     pub(in crate::studies) fn twisted_rod(&mut self, scene: &Record, table: &Record) -> Option<TwistedRod> {
         let law = self.law(scene, "torsion");
@@ -23,7 +26,7 @@ impl Builder<'_> {
             points: table.count("points")?,
         };
         // What cannot be had without twist is a mistake of the end, otherwise of the twist.
-        let ends: [(&str, fn(&TwistedRod, f64) -> Result<TwistedTube, SolutionsError>); 2] =
+        let ends: [(&str, StateAt); 2] =
             [("axial_stretch", TwistedRod::held_at), ("axial_force", TwistedRod::pulled_at)];
         for (key, state) in ends {
             if let Err(error) = state(&rod, 0.0) {

@@ -45,14 +45,14 @@ fn findings(run: &StudyRun) -> &BoxFindings {
 fn in_rectangle(run: &StudyRun) -> &Found<2> {
     match findings(run) {
         BoxFindings::Rectangle(found) => found,
-        other => panic!("{other:?}"),
+        other @ BoxFindings::Box(_) => panic!("{other:?}"),
     }
 }
 
 fn in_box(run: &StudyRun) -> &Found<3> {
     match findings(run) {
         BoxFindings::Box(found) => found,
-        other => panic!("{other:?}"),
+        other @ BoxFindings::Rectangle(_) => panic!("{other:?}"),
     }
 }
 
