@@ -14,7 +14,7 @@ pub mod questions;
 /// What other crates of Piola use; no part of the interface.
 #[doc(hidden)]
 pub mod internal {
-    pub use crate::motion::checkpoint::Marks;
+    pub use crate::motion::checkpoint::{Marks, Sealed};
 }
 
 pub use error::SimulationError;

@@ -1,4 +1,4 @@
-//! What studies of one question compute: data in, results out, with an observer that may stop them.
+//! Studies of single problems in mechanics: plain data, and a function `run` that returns the results.
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 

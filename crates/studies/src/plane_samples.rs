@@ -22,9 +22,12 @@ pub struct PlaneSamples {
 }
 
 impl PlaneSamples {
-    /// Bilinear interpolation; none outside, or beside a value that is not finite.
+    /// Bilinear interpolation; none outside, beside a value that is not finite, or with fewer points or values than stated.
     #[must_use]
     pub fn at(&self, x: [f64; 2]) -> Option<f64> {
+        if self.points.iter().any(|points| *points < 2) || self.values.len() < self.points[0] * self.points[1] {
+            return None;
+        }
         let t: [f64; 2] = core::array::from_fn(|k| (x[k] - self.origin[k]) / self.spacing[k]);
         let inside = |k: usize| 0.0 <= t[k] && t[k] <= (self.points[k] - 1) as f64;
         if !(inside(0) && inside(1)) {

@@ -1,19 +1,19 @@
 //! Studies: scenes without `[time]`.
 //!
-//! | table | study | with |
+//! | table | study | computed by |
 //! |---|---|---|
-//! | `[wavefront]` | [`Wavefront`]: fronts, rays and caustics in a medium | [`piola_studies`] |
-//! | `[room]` | [`Room`]: first arrival of a signal in a room | [`piola_characteristics`] |
-//! | `[balloon]` | `Balloon`: an inflated spherical shell | `piola_solutions` |
-//! | `[torsion]` | `TwistedRod`: a twisted rod or tube, with and without axial force | `piola_solutions` |
-//! | `[bending]` | `BentBlockStudy`: a block bent by couples | `piola_solutions` |
-//! | `[dislocation]` | `ScrewDislocations`: circuits in a crystal with screws | `piola_uniformity` |
-//! | `[laminated_tube]` | `LayeredTube`: a tube with residual stress | `piola_uniformity` |
-//! | `[box]` | `BoxStudy`: elastic and viscous fields on a rectangle or a box | `piola_spectral` |
-//! | `[robot]` | `RobotStudy`: the motion of a tree of bodies from a URDF or MJCF file | `piola_multibody` |
+//! | `[wavefront]` | [`Wavefront`]: fronts, rays and caustics in a medium | [`piola_studies::fronts`] |
+//! | `[room]` | [`Room`]: first arrival of a signal in a room | [`piola_studies::room`] |
+//! | `[balloon]` | `Balloon`: an inflated spherical shell | `piola_studies::balloon` |
+//! | `[torsion]` | `TwistedRod`: a twisted rod or tube, with and without axial force | `piola_studies::torsion` |
+//! | `[bending]` | `BentBlockStudy`: a block bent by couples | `piola_studies::bending` |
+//! | `[dislocation]` | `ScrewDislocations`: circuits in a crystal with screws | `piola_studies::dislocation` |
+//! | `[laminated_tube]` | `LayeredTube`: a tube with residual stress | `piola_studies::laminated_tube` |
+//! | `[box]` | `BoxStudy`: elastic and viscous fields on a rectangle or a box | `piola_studies::boxes` |
+//! | `[robot]` | `RobotStudy`: the motion of a tree of bodies from a URDF or MJCF file | `piola_studies::robot` |
 //!
-//! Those with `piola_solutions` and `piola_uniformity` need the feature `solutions`, those with `piola_spectral` the feature
-//! `spectral`, those with `piola_multibody` the feature `robots`.
+//! `[balloon]`, `[torsion]`, `[bending]`, `[dislocation]` and `[laminated_tube]` need the feature `solutions`, `[box]` needs
+//! `spectral`, `[robot]` needs `robots`.
 //!
 //! They go the way of all scenes: a checked [`Study`] has a [`StudyPlan`], [`run`] makes a [`StudyRun`] of what was found,
 //! and [`StudyRun::write`] leaves the summary, tables and figures. One that fails or is stopped keeps what it had found.

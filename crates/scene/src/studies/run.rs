@@ -113,7 +113,7 @@ impl Subject {
     }
 }
 
-/// What a run goes on from.
+/// The state from which a run continues.
 enum Before {
     Nothing,
     #[cfg(feature = "robots")]

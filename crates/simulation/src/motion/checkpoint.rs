@@ -17,15 +17,22 @@ use crate::SimulationError;
 /// # Example
 /// See [`resume`](super::resume).
 #[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct MotionCheckpoint(pub(super) Sealed<MotionCheckpointBody>);
+
+/// The state of an interrupted run with the marks of that run, and a fingerprint that tells whether the state was changed.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct MotionCheckpoint {
-    pub(super) marks: Marks,
+pub struct Sealed<B> {
+    /// The marks of the run.
+    pub marks: Marks,
     /// The fingerprint of the body.
     fingerprint: u64,
-    pub(super) body: MotionCheckpointBody,
+    /// The state from which a run continues.
+    pub body: B,
 }
 
-/// What a run goes on from.
+/// The state from which a run continues.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MotionCheckpointBody {
@@ -82,11 +89,7 @@ impl Marks {
 }
 
 impl Marks {
-    /// Checks that these are the marks expected.
-    ///
-    /// # Errors
-    /// [`SimulationError::CheckpointOfOtherVersion`], [`SimulationError::CheckpointOfOtherRun`].
-    pub fn check(&self, expected: Self) -> Result<(), SimulationError> {
+    fn check(&self, expected: Self) -> Result<(), SimulationError> {
         if self.version != expected.version {
             let (found, expected) = (self.version.clone(), expected.version);
             return Err(SimulationError::CheckpointOfOtherVersion { found, expected });
@@ -120,15 +123,37 @@ impl Write for Fingerprint {
     }
 }
 
+impl<B: fmt::Debug> Sealed<B> {
+    /// Seals the state of a run.
+    #[must_use]
+    pub fn new(marks: Marks, body: B) -> Self {
+        Self { marks, fingerprint: Fingerprint::of(format_args!("{body:?}")), body }
+    }
+
+    /// Checks that the state is of the run with these marks and is as it was made.
+    ///
+    /// # Errors
+    /// [`SimulationError::CheckpointOfOtherVersion`], [`SimulationError::CheckpointOfOtherRun`],
+    /// [`SimulationError::CheckpointChanged`].
+    pub fn check(&self, expected: Marks) -> Result<(), SimulationError> {
+        self.marks.check(expected)?;
+        let Self { fingerprint, body, .. } = self;
+        if *fingerprint != Fingerprint::of(format_args!("{body:?}")) {
+            return Err(SimulationError::CheckpointChanged);
+        }
+        Ok(())
+    }
+}
+
 impl MotionCheckpoint {
     pub(super) fn new(marks: Marks, body: MotionCheckpointBody) -> Self {
-        Self { marks, fingerprint: Fingerprint::of(format_args!("{body:?}")), body }
+        Self(Sealed::new(marks, body))
     }
 
     /// Time reached, s.
     #[must_use]
     pub fn time(&self) -> f64 {
-        match &self.body.stage {
+        match &self.0.body.stage {
             Stage::Fixed(state) => state.time,
             Stage::Adaptive(checkpoint) => checkpoint.state().time,
         }
@@ -141,12 +166,7 @@ impl MotionCheckpoint {
     /// [`SimulationError::CheckpointOfOtherVersion`], [`SimulationError::CheckpointOfOtherRun`],
     /// [`SimulationError::CheckpointChanged`].
     pub fn check(&self, system: &System, method: Method, timetable: &Timetable) -> Result<(), SimulationError> {
-        self.marks.check(Marks::of(system, method, timetable))?;
-        let Self { fingerprint, body, .. } = self;
-        if *fingerprint != Fingerprint::of(format_args!("{body:?}")) {
-            return Err(SimulationError::CheckpointChanged);
-        }
-        Ok(())
+        self.0.check(Marks::of(system, method, timetable))
     }
 }
 

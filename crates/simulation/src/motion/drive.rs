@@ -13,7 +13,7 @@ use piola_integrators::{
 };
 
 use super::any_field::{AdaptiveStep, AnyField, FieldWithText, SecondOrderWithText, SeparableWithText};
-use super::checkpoint::{CheckpointKeeper, Marks, MotionCheckpoint, MotionCheckpointBody, Part, Stage};
+use super::checkpoint::{CheckpointKeeper, Marks, MotionCheckpoint, MotionCheckpointBody, Part, Sealed, Stage};
 use super::memory::Memory;
 use super::{History, Invariants, Method, Progress, TimeSpan, Timetable};
 use crate::SimulationError;
@@ -176,12 +176,12 @@ impl<'o> Driver<'o> {
         let body = MotionCheckpointBody { stage, report, steps, next, landing, history, done };
         let checkpoint = MotionCheckpoint::new(marks, body);
         keeper.keep(&checkpoint);
-        (self.history, self.done) = (checkpoint.body.history, checkpoint.body.done);
+        (self.history, self.done) = (checkpoint.0.body.history, checkpoint.0.body.done);
     }
 
     /// Records the state at the start, or takes up what a checkpoint holds.
     fn begin(&mut self, state: &mut State, reading: &mut dyn Reading) -> Option<Checkpoint> {
-        if let Some(MotionCheckpoint { body, .. }) = self.resumed.take() {
+        if let Some(MotionCheckpoint(Sealed { body, .. })) = self.resumed.take() {
             let MotionCheckpointBody { stage, report, steps, next, landing, history, .. } = body;
             (self.report, self.steps, self.next, self.landing, self.history) = (report, steps, next, landing, history);
             let checkpoint = match stage {

@@ -28,7 +28,7 @@ pub(super) fn run(
     (mut keeper, mut resumed): (Option<Keeper<'_>>, Option<MotionCheckpoint>),
     observer: Observer<'_>,
 ) -> MotionRun {
-    let mut done = resumed.as_mut().map(|checkpoint| core::mem::take(&mut checkpoint.body.done)).unwrap_or_default();
+    let mut done = resumed.as_mut().map(|checkpoint| core::mem::take(&mut checkpoint.0.body.done)).unwrap_or_default();
     let mut report = done.iter().fold(Report::begin(), |report, part| report.then(part.report));
     let span = timetable.span();
     let mut result = Ok(());

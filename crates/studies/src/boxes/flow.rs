@@ -21,6 +21,9 @@ const HALVINGS: u32 = 10;
 const SHOWN: f64 = 96.0;
 
 /// A recorded flow.
+///
+/// # Example
+/// See [`BoxStudy`](super::BoxStudy).
 #[derive(Debug, Clone)]
 pub struct FlowHistory<const D: usize> {
     /// The grid.
@@ -42,6 +45,9 @@ pub struct FlowHistory<const D: usize> {
 }
 
 /// A flow after a step.
+///
+/// # Example
+/// See [`BoxStudy`](super::BoxStudy).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FlowInstant {
     /// The time, s.
@@ -151,6 +157,10 @@ impl<const D: usize> FlowHistory<D> {
                      stable: a `step` of at most {most:.6e} s"
                 ));
             }
+            let count = task.duration / step;
+            if !(0.0 < step && count <= MOST_STEPS) {
+                return Err(format!("{count:.0} steps are needed, more than {MOST_STEPS}: a longer `step`"));
+            }
             return Ok(step);
         }
         let count = (task.duration * rate / CHOSEN_COURANT_NUMBER).ceil().max(1.0);
@@ -185,7 +195,7 @@ impl<const D: usize> FlowHistory<D> {
         }
         let sides = self.grid.sides();
         for probe in &fields.probes {
-            // The sides of the grid, points times spacing, are those of the scene but for rounding.
+            // The sides of the grid, points times spacing, are those of the study but for rounding.
             let place = core::array::from_fn(|axis| probe.at[axis].min(sides[axis]));
             self.probes.push((probe.clone(), flow.reference_position(place)?));
         }

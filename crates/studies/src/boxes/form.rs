@@ -3,6 +3,9 @@
 use piola_spectral::{ModalSeries, SpectralError, Walls};
 
 /// The form of a force per volume, a displacement or a velocity.
+///
+/// # Example
+/// See [`BoxStudy`](super::BoxStudy).
 #[derive(Debug, Clone, PartialEq)]
 pub enum Form<const D: usize> {
     /// The same everywhere.
@@ -36,6 +39,9 @@ pub enum Form<const D: usize> {
 }
 
 /// A force between two instants.
+///
+/// # Example
+/// See [`BoxStudy`](super::BoxStudy).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Load<const D: usize> {
     /// Its form.
@@ -47,6 +53,9 @@ pub struct Load<const D: usize> {
 }
 
 /// A part of the state at the start.
+///
+/// # Example
+/// See [`BoxStudy::run_with_checkpoints`](super::BoxStudy::run_with_checkpoints).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Start<const D: usize> {
     /// Its form.

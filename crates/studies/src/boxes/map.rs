@@ -2,7 +2,7 @@
 
 use piola_spectral::BoxGrid;
 
-/// Rows of a table.
+/// Rows of a table, at most.
 pub const MOST_ROWS: usize = 100_000;
 
 /// The third coordinate of the slice in the middle of a box, m; none of a rectangle.

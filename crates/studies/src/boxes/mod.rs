@@ -16,7 +16,7 @@ pub use motion::{MotionHistory, MotionInstant};
 pub use run::{BoxFindings, Found};
 pub use statics::StaticField;
 
-use piola_spectral::{BoxGrid, LameParameters, PointLocation, Walls};
+use piola_spectral::{BoxGrid, LameParameters, Walls};
 
 /// Instants of a motion, and steps of a flow, at most.
 pub const MOST_STEPS: f64 = 100_000.0;
@@ -28,7 +28,7 @@ pub const MOST_BYTES: f64 = 1_073_741_824.0;
 /// # Example
 /// A bar between sliding walls under f = sin πx: u = f/((λ + 2μ) π²).
 /// ```
-/// use piola_spectral::{BoxGrid, LameParameters, PointLocation, Walls};
+/// use piola_spectral::{BoxGrid, LameParameters, Walls};
 /// use piola_studies::boxes::{BoxFields, BoxFindings, BoxStudy, Form, Found, Load, StaticTask, Task};
 /// use std::{f64::consts::PI, ops::ControlFlow};
 /// let form = Form::Mode { amplitudes: [1.0, 0.0], indices: [1, 0] };
@@ -38,7 +38,7 @@ pub const MOST_BYTES: f64 = 1_073_741_824.0;
 ///     lame: LameParameters::new(2.0, 1.0)?,
 ///     loads: vec![Load { form, span: [0.0, f64::INFINITY], course: vec![1.0] }],
 ///     probes: vec![],
-///     task: Task::Static(StaticTask { grid: BoxGrid::new([9, 3], [1.0, 1.0], PointLocation::Nodes)?, modes: None }),
+///     task: Task::Static(StaticTask { grid: BoxGrid::nodes([9, 3], [0.125, 0.5])?, modes: None }),
 /// };
 /// let (found, _) = BoxStudy::Rectangle(fields).run(&mut |_| ControlFlow::Continue(()));
 /// let BoxFindings::Rectangle(Found::Static(field)) = found else { panic!() };
@@ -56,6 +56,9 @@ pub enum BoxStudy {
 }
 
 /// Fields on a rectangle (D = 2) or a box (D = 3).
+///
+/// # Example
+/// See [`BoxStudy`].
 #[derive(Debug, Clone)]
 pub struct BoxFields<const D: usize> {
     /// The sides, m.
@@ -73,6 +76,9 @@ pub struct BoxFields<const D: usize> {
 }
 
 /// What is computed.
+///
+/// # Example
+/// See [`BoxStudy`].
 #[derive(Debug, Clone)]
 pub enum Task<const D: usize> {
     /// The displacement in equilibrium.
@@ -84,6 +90,9 @@ pub enum Task<const D: usize> {
 }
 
 /// Equilibrium on a grid.
+///
+/// # Example
+/// See [`BoxStudy`].
 #[derive(Debug, Clone)]
 pub struct StaticTask<const D: usize> {
     /// The grid.
@@ -93,6 +102,9 @@ pub struct StaticTask<const D: usize> {
 }
 
 /// A motion of modes.
+///
+/// # Example
+/// See [`BoxStudy::run_with_checkpoints`].
 #[derive(Debug, Clone)]
 pub struct MotionTask<const D: usize> {
     /// The highest indices.
@@ -110,6 +122,9 @@ pub struct MotionTask<const D: usize> {
 }
 
 /// A creeping flow on a grid.
+///
+/// # Example
+/// See [`BoxStudy`].
 #[derive(Debug, Clone)]
 pub struct FlowTask<const D: usize> {
     /// The grid.
@@ -125,6 +140,9 @@ pub struct FlowTask<const D: usize> {
 }
 
 /// A place with a name.
+///
+/// # Example
+/// See [`BoxStudy`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Probe<const D: usize> {
     /// Its name.

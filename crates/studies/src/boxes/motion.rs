@@ -6,10 +6,13 @@ use super::checkpoint::{Body, BoxCheckpoint, MotionBody};
 use super::load::Forces;
 use super::run::Keeper;
 use super::statics::{finite, series_of};
-use super::{BoxFields, Form, MotionTask, Probe};
+use super::{BoxFields, Form, MOST_STEPS, MotionTask, Probe};
 use crate::Observer;
 
 /// A recorded motion.
+///
+/// # Example
+/// See [`BoxStudy::run_with_checkpoints`](super::BoxStudy::run_with_checkpoints).
 #[derive(Debug, Clone)]
 pub struct MotionHistory<const D: usize> {
     /// The places that are recorded.
@@ -23,6 +26,9 @@ pub struct MotionHistory<const D: usize> {
 }
 
 /// An instant of a motion.
+///
+/// # Example
+/// See [`BoxStudy::run_with_checkpoints`](super::BoxStudy::run_with_checkpoints).
 #[derive(Debug, Clone)]
 pub struct MotionInstant<const D: usize> {
     /// The time, s.
@@ -85,6 +91,11 @@ impl<const D: usize> MotionHistory<D> {
         let forms = |is_velocity: bool| -> Vec<&Form<D>> {
             task.starts.iter().filter(|start| start.is_velocity == is_velocity).map(|start| &start.form).collect()
         };
+        let intervals = task.duration / task.interval;
+        if !(0.0 < intervals && intervals <= MOST_STEPS) {
+            let (quantity, bound) = ("duration/interval", "0 < duration/interval <= 100000");
+            return Err(SpectralError::OutOfBounds { quantity, value: intervals, bound });
+        }
         let is_new = from.is_none();
         let ([displacement, velocity], mut now) = match from {
             Some(body) => body.restore(fields, task, self)?,
@@ -98,7 +109,7 @@ impl<const D: usize> MotionHistory<D> {
         if is_new {
             self.record(&motion, fields, now)?;
         }
-        let recorded = self.instants.len() - 1;
+        let recorded = self.instants.len().saturating_sub(1);
         for instant in task.instants().skip(recorded) {
             while now < instant {
                 let next = instant.min(forces.next_change(now));

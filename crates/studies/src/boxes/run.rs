@@ -9,6 +9,9 @@ use crate::observer::outcome;
 use crate::{Observer, Outcome, StudyCheckpointKeeper};
 
 /// The results of a study of fields on a rectangle or a box.
+///
+/// # Example
+/// See [`BoxStudy`](super::BoxStudy).
 #[derive(Debug, Clone)]
 pub enum BoxFindings {
     /// Two sides.
@@ -17,7 +20,10 @@ pub enum BoxFindings {
     Box(Found<3>),
 }
 
-/// The results, with the study that they belong to.
+/// The results, by the task.
+///
+/// # Example
+/// See [`BoxStudy`](super::BoxStudy).
 #[derive(Debug, Clone)]
 pub enum Found<const D: usize> {
     /// A displacement in equilibrium.
@@ -40,8 +46,8 @@ impl BoxStudy {
 
     /// As [`run`](Self::run), from a checkpoint of this study or from its start, with checkpoints of motions and flows.
     ///
-    /// A run from a checkpoint is bit for bit the run that was never stopped. One of another study is refused by
-    /// [`BoxCheckpoint::check`]; here it is passed over where its task is another one.
+    /// A run from a checkpoint is bit for bit the run that was never stopped. With a checkpoint of another study, or one that was
+    /// changed, the run fails.
     ///
     /// # Example
     /// ```
@@ -83,6 +89,10 @@ impl BoxStudy {
         keeper: Option<&mut dyn StudyCheckpointKeeper<BoxCheckpoint>>,
         observer: &mut Observer<'_>,
     ) -> (BoxFindings, Outcome) {
+        if let Some(Err(error)) = from.as_ref().map(|checkpoint| checkpoint.check(self)) {
+            return (self.nothing(), Outcome::Failed(error.to_string()));
+        }
+        let from = from.map(BoxCheckpoint::into_body);
         match self {
             Self::Rectangle(fields) => {
                 let (found, outcome) = fields.run(from, keeper, observer);
@@ -96,27 +106,40 @@ impl BoxStudy {
     }
 }
 
-impl<const D: usize> BoxFields<D> {
-    fn run(&self, from: Option<BoxCheckpoint>, keeper: Keeper<'_>, observer: &mut Observer<'_>) -> (Found<D>, Outcome) {
-        let from = from.map(|checkpoint| checkpoint.body);
-        match &self.task {
-            Task::Static(task) => {
-                let mut found = StaticField::of(task);
-                let result = found.solve(self, task, observer);
-                (Found::Static(found), outcome(result))
-            }
-            Task::Motion(task) => {
-                let mut found = MotionHistory::of(self, task);
-                let from = if let Some(Body::Motion(body)) = from { Some(body) } else { None };
-                let result = found.follow((self, task), (from, keeper), observer);
-                (Found::Motion(found), outcome(result))
-            }
-            Task::Flow(task) => {
-                let mut found = FlowHistory::of(task);
-                let from = if let Some(Body::Flow(body)) = from { Some(body) } else { None };
-                let result = found.follow((self, task), (from, keeper), observer);
-                (Found::Flow(found), outcome(result))
-            }
+impl BoxStudy {
+    /// The results before the run.
+    fn nothing(&self) -> BoxFindings {
+        match self {
+            Self::Rectangle(fields) => BoxFindings::Rectangle(fields.nothing()),
+            Self::Box(fields) => BoxFindings::Box(fields.nothing()),
         }
+    }
+}
+
+impl<const D: usize> BoxFields<D> {
+    fn nothing(&self) -> Found<D> {
+        match &self.task {
+            Task::Static(task) => Found::Static(StaticField::of(task)),
+            Task::Motion(task) => Found::Motion(MotionHistory::of(self, task)),
+            Task::Flow(task) => Found::Flow(FlowHistory::of(task)),
+        }
+    }
+
+    fn run(&self, from: Option<Body>, keeper: Keeper<'_>, observer: &mut Observer<'_>) -> (Found<D>, Outcome) {
+        let mut found = self.nothing();
+        let result = match (&mut found, &self.task) {
+            (Found::Static(found), Task::Static(task)) => outcome(found.solve(self, task, observer)),
+            (Found::Motion(found), Task::Motion(task)) => {
+                let from = if let Some(Body::Motion(body)) = from { Some(body) } else { None };
+                outcome(found.follow((self, task), (from, keeper), observer))
+            }
+            (Found::Flow(found), Task::Flow(task)) => {
+                let from = if let Some(Body::Flow(body)) = from { Some(body) } else { None };
+                outcome(found.follow((self, task), (from, keeper), observer))
+            }
+            // `nothing` is of the task.
+            _ => Outcome::Completed,
+        };
+        (found, result)
     }
 }

@@ -7,6 +7,9 @@ use super::{BoxFields, Form, Probe, StaticTask};
 use crate::Observer;
 
 /// A displacement in equilibrium, with its stress.
+///
+/// # Example
+/// See [`BoxStudy`](super::BoxStudy).
 #[derive(Debug, Clone)]
 pub struct StaticField<const D: usize> {
     /// The grid.

@@ -60,7 +60,7 @@ pub struct TorsionAt {
 /// See [`ScrewDislocations`].
 #[derive(Debug, Clone, Default)]
 pub struct BurgersCircuits {
-    /// The circuits, in the order of the scene.
+    /// The circuits, in the order of `radii`.
     pub circuits: Vec<BurgersCircuit>,
     /// The largest circuit in the body, m.
     pub in_body: Vec<[f64; 3]>,

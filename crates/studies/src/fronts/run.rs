@@ -1,13 +1,13 @@
 //! Follows the rays and reads their fronts.
 
-use core::ops::ControlFlow;
 use std::collections::BTreeMap;
 
 use piola_hamiltonian::HamiltonianError;
 use piola_hamiltonian::hamilton_jacobi::{FrontRay, WaveFront};
 
 use super::{Medium, MediumPart, Source, Wavefront};
-use crate::Outcome;
+use crate::observer::outcome;
+use crate::{Observer, Outcome};
 
 /// Parts of the length between which caustics are looked for and rays are drawn, at least.
 const PARTS: u32 = 240;
@@ -95,21 +95,13 @@ impl Wavefront {
     ///
     /// A run that fails or is stopped returns the fronts that it found until then. It fails where the data of the source or of the
     /// medium are not valid, or give an index that is not a positive number.
-    pub fn run(&self, observer: &mut dyn FnMut(f64) -> ControlFlow<()>) -> (Fronts, Outcome) {
+    pub fn run(&self, observer: &mut Observer<'_>) -> (Fronts, Outcome) {
         let mut found = Fronts::default();
-        let outcome = match self.follow(&mut found, observer) {
-            Ok(true) => Outcome::Completed,
-            Ok(false) => Outcome::Interrupted,
-            Err(error) => Outcome::Failed(error.to_string()),
-        };
-        (found, outcome)
+        let result = self.follow(&mut found, observer);
+        (found, outcome(result))
     }
 
-    fn follow(
-        &self,
-        found: &mut Fronts,
-        observer: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<bool, HamiltonianError> {
+    fn follow(&self, found: &mut Fronts, observer: &mut Observer<'_>) -> Result<bool, HamiltonianError> {
         let start = if self.source.closed() { WaveFront::closed } else { WaveFront::open };
         let mut front = start(&self.medium, &self.source, 1.0, 1.0, self.source.range(), self.rays as usize)?;
         let every = (self.rays as usize / DRAWN).max(1);

@@ -3,7 +3,7 @@
 use piola_integrators::State;
 use piola_multibody::{ClosedMotion, TreeMotion};
 use piola_simulation::SimulationError;
-use piola_simulation::internal::Marks;
+use piola_simulation::internal::{Marks, Sealed};
 use serde::{Deserialize, Serialize};
 
 use super::RobotStudy;
@@ -12,17 +12,15 @@ use super::sample::RobotSample;
 /// Steps after which a run begins anew from the state alone, so that it can be continued from there.
 pub(super) const PIECE: u32 = 1000;
 
-/// A run where it begins anew, with what it has recorded.
+/// The state of an interrupted run of a robot, with the instants recorded so far.
+///
+/// # Example
+/// See [`RobotStudy`].
 #[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RobotCheckpoint {
-    marks: Marks,
-    /// The fingerprint of the body.
-    fingerprint: Marks,
-    pub(super) body: RobotCheckpointBody,
-}
+#[serde(transparent)]
+pub struct RobotCheckpoint(pub(super) Sealed<RobotCheckpointBody>);
 
-/// What a run goes on from.
+/// The state from which a run continues.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RobotCheckpointBody {
@@ -34,13 +32,13 @@ pub(super) struct RobotCheckpointBody {
 
 impl RobotCheckpoint {
     pub(super) fn new(robot: &RobotStudy, body: RobotCheckpointBody) -> Self {
-        Self { marks: robot.marks(), fingerprint: body.fingerprint(), body }
+        Self(Sealed::new(robot.marks(), body))
     }
 
     /// Time reached, s.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.body.state.time
+        self.0.body.state.time
     }
 
     /// Checks that the checkpoint is of this run and is as it was made.
@@ -48,14 +46,7 @@ impl RobotCheckpoint {
     /// # Errors
     /// [`SimulationError`]: it is of another study or another version, or it was changed.
     pub fn check(&self, robot: &RobotStudy) -> Result<(), SimulationError> {
-        self.marks.check(robot.marks())?;
-        self.fingerprint.check(self.body.fingerprint()).map_err(|_| SimulationError::CheckpointChanged)
-    }
-}
-
-impl RobotCheckpointBody {
-    fn fingerprint(&self) -> Marks {
-        Marks::of_run(format_args!("{self:?}"))
+        self.0.check(robot.marks())
     }
 }
 

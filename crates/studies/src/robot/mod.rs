@@ -16,15 +16,42 @@ pub use sample::RobotSample;
 
 /// A tree with all that starts and drives it.
 ///
+/// `piola-scene` makes one of a scene with `[robot]`.
+///
 /// # Example
-/// ```no_run
-/// use piola_scene::studies::Subject;
-/// use piola_scene::SceneFile;
-/// let file = SceneFile::load("scenes/two-link-arm.toml".as_ref(), &[])?;
-/// let SceneFile::Study(study) = file else { panic!() };
-/// let Subject::Robot(robot) = study.subject else { panic!() };
-/// assert_eq!(robot.closed.tree().freedoms(), 2);
-/// # Ok::<(), piola_scene::SceneError>(())
+/// A pendulum of 1 kg and 1 m swings from the horizontal for a second.
+/// ```
+/// use piola_multibody::{BodyIndex, BodyInertia, ClosedTree, JointKind, RigidTree, TreeJoint};
+/// use piola_simulation::motion::TimeSpan;
+/// use piola_studies::Outcome;
+/// use piola_studies::robot::{JointDrive, RobotStudy};
+/// use std::{f64::consts::PI, ops::ControlFlow};
+/// let hinge = JointKind::Revolute { axis: [0.0, 1.0, 0.0] };
+/// let bob = BodyInertia::new(1.0, [0.0, 0.0, -1.0], [[1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0], [0.0, 0.0, 1e-3]])?;
+/// let mut builder = RigidTree::builder();
+/// builder.attach(BodyIndex::GROUND, TreeJoint::new("hinge", hinge), "bob", bob)?;
+/// let drive = JointDrive { coordinate: Some(0), effort: 0.0, limits: [-PI, PI] };
+/// let pendulum = RobotStudy {
+///     file: "pendulum.urdf".into(),
+///     closed: ClosedTree::new(builder.build()?),
+///     visuals: vec![],
+///     time: TimeSpan { start: 0.0, end: 1.0 },
+///     tolerance: 1e-10,
+///     samples: 11,
+///     animation: false,
+///     stops: false,
+///     moved: 0.0,
+///     start: (vec![PI / 2.0], vec![0.0]),
+///     drives: vec![drive],
+///     names: [vec!["hinge".into()], vec!["hinge".into()]],
+///     slip_rate: 1e-3,
+///     has_joint_forces: true,
+///     motors: vec![],
+/// };
+/// let (found, outcome) = pendulum.run(None, None, &mut |_| ControlFlow::Continue(()));
+/// assert_eq!(outcome, Outcome::Completed);
+/// assert!(found.samples.len() == 11 && found.energy_error < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct RobotStudy {
@@ -38,7 +65,7 @@ pub struct RobotStudy {
     pub time: TimeSpan,
     /// Tolerance of a step: relative, and absolute in SI units.
     pub tolerance: f64,
-    /// Instants that are recorded.
+    /// Instants that are recorded, at least two.
     pub samples: u32,
     /// Whether the motion is written for viewers.
     pub animation: bool,
@@ -61,6 +88,9 @@ pub struct RobotStudy {
 }
 
 /// What drives a freedom, besides the springs, dampers and friction of the tree's joints.
+///
+/// # Example
+/// See [`RobotStudy`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointDrive {
     /// The coordinate of a freedom that is the rate of one.

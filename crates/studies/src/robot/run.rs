@@ -8,11 +8,16 @@ use piola_integrators::{DormandPrince853, Ending, Field, IntegratorsError, State
 use piola_multibody::{MultibodyError, TreeWorkspace};
 
 use super::RobotStudy;
+use piola_simulation::internal::Sealed;
+
 use super::checkpoint::{PIECE, Renewable, RobotCheckpoint, RobotCheckpointBody};
 use super::sample::{RobotSample, WORKS};
 use crate::{Observer, Outcome, StudyCheckpointKeeper};
 
 /// A run with all that it recorded, however far it came.
+///
+/// # Example
+/// See [`RobotStudy`](super::RobotStudy).
 #[derive(Debug, Clone, Default)]
 pub struct RobotMotion {
     /// The record.
@@ -109,7 +114,8 @@ impl RobotStudy {
     /// Runs the study, from a checkpoint or from its start: the results so far and how it ended.
     ///
     /// The observer gets the finished part, from 0 to 1, and may stop the run. A run from a checkpoint is bit for bit the run that was
-    /// never stopped.
+    /// never stopped. With a checkpoint of another study, or one that was changed, the run fails; so it does with fewer than two
+    /// instants to record.
     pub fn run(
         &self,
         from: Option<RobotCheckpoint>,
@@ -117,6 +123,12 @@ impl RobotStudy {
         observer: &mut Observer<'_>,
     ) -> (RobotMotion, Outcome) {
         let mut found = RobotMotion { names: self.names[0].clone(), ..RobotMotion::default() };
+        if let Some(Err(error)) = from.as_ref().map(|checkpoint| checkpoint.check(self)) {
+            return (found, Outcome::Failed(error.to_string()));
+        }
+        if self.samples < 2 {
+            return (found, Outcome::Failed(format!("{} instants to record: at least two are needed", self.samples)));
+        }
         let forces = |_t: f64, q: &[f64], v: &[f64], tau: &mut [f64]| self.drive(q, v, tau);
         let outcome = if self.closed.conditions() == 0 {
             self.follow(self.closed.tree().motion(forces), &mut found, (from, keeper), observer)
@@ -150,10 +162,10 @@ impl RobotStudy {
         let tolerance = Tolerance::new(self.tolerance, self.tolerance).map_err(in_words)?;
         let mut work = self.closed.tree().workspace();
         match from {
-            Some(RobotCheckpoint {
+            Some(RobotCheckpoint(Sealed {
                 body: RobotCheckpointBody { state: kept, samples, cost, singular_positions },
                 ..
-            }) => {
+            })) => {
                 (state, found.samples, found.cost) = (kept, samples, cost);
                 found.singular_positions = singular_positions;
             }

@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 pub(super) const WORKS: usize = 3;
 
 /// A recorded instant.
+///
+/// # Example
+/// See [`RobotStudy`](super::RobotStudy).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotSample {

@@ -14,6 +14,19 @@ use piola_characteristics::{FirstOrderPde, InitialManifold};
 use piola_numerics::Real;
 
 /// A room, the speed of a signal in it, and where it starts.
+///
+/// # Example
+/// A signal from the wall of an elliptic room at 2 m/s everywhere: characteristics first cross at the tips of the evolute.
+/// ```
+/// use piola_studies::room::{Outline, Room, Speed};
+/// use std::ops::ControlFlow;
+/// let outline = Outline { centre: [0.0; 2], semi_axes: [1.0, 0.8], exponent: 2 };
+/// let speed = Speed { at_origin: 2.0, gradient: [0.0; 2] };
+/// let room = Room { outline, speed, circle: None, resolution: 0.01, grid: 21 };
+/// let (found, _) = room.run(&mut |_| ControlFlow::Continue(()));
+/// // The least radius of curvature of the ellipse, b²/a, over the speed.
+/// assert!((found.first_loss.unwrap().time - 0.32).abs() < 1e-6);
+/// ```
 #[derive(Debug, Clone)]
 pub struct Room {
     /// The wall.
@@ -24,11 +37,14 @@ pub struct Room {
     pub circle: Option<Outline>,
     /// Largest error of interpolation, m.
     pub resolution: f64,
-    /// Points of the grid along the longer axis.
+    /// Points of the grid along the longer axis, at least two.
     pub grid: u32,
 }
 
 /// A closed curve: (x/a)ⁿ + (y/b)ⁿ = 1 about its centre.
+///
+/// # Example
+/// See [`Room`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outline {
     /// The centre, m.
@@ -40,6 +56,9 @@ pub struct Outline {
 }
 
 /// v = v₀ + g·x.
+///
+/// # Example
+/// See [`Room`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Speed {
     /// v₀, m/s.

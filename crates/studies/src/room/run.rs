@@ -23,6 +23,9 @@ const DRAWN: usize = 120;
 const CHECKED: usize = 40;
 
 /// Where characteristics first cross.
+///
+/// # Example
+/// See [`Room`](super::Room).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LossOfInvertibility {
     /// The time, s.
@@ -34,6 +37,9 @@ pub struct LossOfInvertibility {
 }
 
 /// The arrivals in a room.
+///
+/// # Example
+/// See [`Room`](super::Room).
 #[derive(Debug, Clone, Default)]
 pub struct Arrivals {
     /// Points of the grid and their times, s; none outside of the room.
