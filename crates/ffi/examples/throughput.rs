@@ -1,5 +1,10 @@
 //! Nanoseconds a point of a law at many points, as C, Fortran and Python call it: the figures beside those of
 //! `crates/python/tests/throughput.py`, on one thread.
+//!
+//! ```sh
+//! cargo build --release -p piola-ffi --features history,rayon --example throughput
+//! taskset -c 1 target/release/examples/throughput
+//! ```
 
 #![expect(clippy::print_stdout, reason = "a table for the page of measurements")]
 

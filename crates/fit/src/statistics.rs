@@ -154,7 +154,7 @@ pub fn student(confidence: f64, degrees: usize) -> Option<f64> {
 /// θ − L ≥ t σ     [θ − t σ, L + (θ − L) e^h],   h = t σ/(θ − L): holds the one symmetric in θ and the one symmetric in ln(θ − L)
 /// otherwise       [L, θ + t σ]: the bound is among the values that the data allow
 /// ```
-/// Where h is near one, one of the two alone may hold the truth too seldom, and the law decides which. For small h they differ by ½ h² of the
+/// Where h is near one, either interval alone can cover the truth too rarely; which one depends on the law. For small h they differ by ½ h² of the
 /// distance.
 #[cfg(any(feature = "fluids", feature = "solids"))]
 pub(crate) fn interval(value: f64, [low, high]: [f64; 2], half: f64) -> [f64; 2] {

@@ -1,8 +1,12 @@
-//! Numbers of a checkpoint, taken back.
+//! Reading of the numbers of a checkpoint.
 
 /// The whole number that a count of steps was.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count; what is none saturates")]
-pub(crate) fn whole(count: f64) -> u64 {
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a count; values that are no count saturate"
+)]
+pub(crate) fn count_of(count: f64) -> u64 {
     count as u64
 }
 

@@ -217,13 +217,18 @@ pub(crate) fn stress<T: IncrementScalar, L: Evolution<S, X>, const S: usize, con
     law.first_piola(gradient, state)
 }
 
+/// a + s (b − a).
+pub(crate) fn along(start: f64, end: f64, share: f64) -> f64 {
+    start + share * (end - start)
+}
+
 /// F₀ + s (F₁ − F₀), with derivatives by F₁ where its numbers have them.
 pub(crate) fn between<T: IncrementScalar>(start: &Rows<f64>, end: &Rows<f64>, share: f64) -> Rows<T> {
     let mut gradient = [[T::zero(); 3]; 3];
     for (i, row) in gradient.iter_mut().enumerate() {
         for (j, entry) in row.iter_mut().enumerate() {
             // At the end exactly F₁.
-            let value = if share < 1.0 { start[i][j] + share * (end[i][j] - start[i][j]) } else { end[i][j] };
+            let value = if share < 1.0 { along(start[i][j], end[i][j], share) } else { end[i][j] };
             *entry = T::entry(value, 3 * i + j, share);
         }
     }

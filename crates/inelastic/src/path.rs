@@ -4,7 +4,7 @@ use core::iter::successors;
 
 use piola_tensor::internal::rows::Rows;
 
-use crate::newton::{IncrementScalar, Iterations, between, implicit_step, values};
+use crate::newton::{IncrementScalar, Iterations, along, between, implicit_step, values};
 use crate::{Evolution, InelasticError};
 
 /// The most widths of steps that are extrapolated: 1, ½, ⅓, … of the increment. Seven multiply rounding by a thousand, ten by fifty
@@ -237,9 +237,8 @@ impl<L, const S: usize> Increment<'_, L, S> {
         L: Evolution<S, X>,
     {
         let beyond = share + width / (8 * SAMPLES) as f64;
-        let entry = |i: usize, j: usize| self.start[i][j] + beyond * (self.end[i][j] - self.start[i][j]);
-        let gradient = [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)));
-        !self.law.evolves(state, &gradient, self.dt * width)
+        let gradient = [0, 1, 2].map(|i| [0, 1, 2].map(|j| along(self.start[i][j], self.end[i][j], beyond)));
+        !self.law.evolves(state, &gradient, self.dt * (beyond - share))
     }
 
     /// The state at the end; where that is not reached, the last admissible state and why it is the last.
@@ -268,7 +267,7 @@ impl<L, const S: usize> Increment<'_, L, S> {
                     continue;
                 }
                 let beside = self.gradient(reached.share + width * BESIDE);
-                flows = self.law.evolves(&values(&reached.state), &beside, self.dt * width);
+                flows = self.law.evolves(&values(&reached.state), &beside, self.dt * (width * BESIDE));
             }
             match self.part::<T, X>(&reached, width, &mut effort) {
                 Ok(Part { state, widths, change }) => {
@@ -283,7 +282,7 @@ impl<L, const S: usize> Increment<'_, L, S> {
                     reached = Reached { share, state };
                     effort.parts += 1;
                     alignments += usize::from(has_ended);
-                    is_ending = is_ending && !has_ended;
+                    is_ending = is_ending && flows && !has_ended;
                     rate = if flows && !has_ended { change / width } else { f64::INFINITY };
                     if widths < 5 && !is_ending {
                         width *= 2.0;

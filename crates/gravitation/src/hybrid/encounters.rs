@@ -1,14 +1,14 @@
 //! Groups of planets that come near each other in a motion.
 
-use piola_integrators::{GaussRadau15, IntegratorsError, State};
+use piola_integrators::{GaussRadau15, IntegratorsError, Report, State};
 use piola_numerics::Real;
 
-use super::ClosestApproach;
 use super::critical::Sizes;
 use super::paths::Arc;
 use super::together::{Together, far};
 use super::watch::{Findings, Watch};
-use crate::checkpoint::whole;
+use super::{ClosestApproach, HybridReport};
+use crate::checkpoint::count_of;
 use crate::kepler::Increment;
 use crate::wisdom_holman::planets::{PlanetMasses, Planets};
 use crate::wisdom_holman::run::{Failure, Moment, Near};
@@ -43,6 +43,7 @@ pub(super) struct Encounters<'a, T> {
 
 impl<'a, T: Real> Encounters<'a, T> {
     pub(super) fn new(masses: &PlanetMasses, sizes: &'a Sizes) -> Self {
+        const { assert!(T::LANES == 1, "each lane has its own encounters") };
         let planets = masses.planets.len();
         let pair = |(first, second)| (first, second, sizes.critical(first, second));
         Self {
@@ -60,6 +61,12 @@ impl<'a, T: Real> Encounters<'a, T> {
             evaluations: 0,
             closest: None,
         }
+    }
+
+    /// The report of a run with these encounters.
+    pub(super) const fn report(&self, mut run: Report) -> HybridReport {
+        run.evaluations += self.evaluations;
+        HybridReport { run, encounter_steps: self.steps, closest: self.closest }
     }
 
     /// Joins the groups of planets that may come within their critical radius. Returns whether it joined any.
@@ -231,6 +238,10 @@ impl<T: Real> Near<T> for Encounters<'_, T> {
         self.is_counted = false;
     }
 
+    fn numbers(&self) -> usize {
+        NUMBERS + self.sizes.critical.len()
+    }
+
     /// The last step of the integrator, the counts, the nearest approach, the critical radii.
     fn saved(&self) -> Vec<f64> {
         let closest = self.closest.map_or([-1.0, 0.0, 0.0, 0.0], |closest| {
@@ -244,8 +255,8 @@ impl<T: Real> Near<T> for Encounters<'_, T> {
     fn restore(&mut self, saved: &[f64]) {
         let [last_step, steps, evaluations, first, second, distance, t, ..] = *saved else { return };
         self.last_step = last_step;
-        (self.steps, self.evaluations) = (whole(steps), whole(evaluations));
-        let index = |value: f64| usize::try_from(whole(value)).unwrap_or(usize::MAX);
+        (self.steps, self.evaluations) = (count_of(steps), count_of(evaluations));
+        let index = |value: f64| usize::try_from(count_of(value)).unwrap_or(usize::MAX);
         self.closest = (0.0 <= first).then(|| {
             let (first, second) = (index(first), index(second));
             ClosestApproach { first, second, distance, t }

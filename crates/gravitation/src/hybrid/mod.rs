@@ -47,7 +47,7 @@ pub use critical::critical_radii;
 
 use crate::check::check_length;
 use crate::wisdom_holman::planets::{PlanetMasses, Planets};
-use crate::wisdom_holman::run::{Course, OF_STEPS};
+use crate::wisdom_holman::run::{Course, Failure, OF_STEPS};
 use crate::wisdom_holman::{Splitting, check};
 use crate::{Gravitation, GravitationError};
 use critical::{Sizes, check_radii};
@@ -225,7 +225,10 @@ impl HybridSymplectic {
         shown: u64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<HybridReport, IntegratorsError<GravitationError>> {
-        Ok(self.run(bodies, None, state, end, shown, observer)?.0)
+        let sizes = self.sizes(bodies, state)?;
+        let mut near = Encounters::new(&PlanetMasses::new(bodies.parameters()), &sizes);
+        let ended = self.course.integrate(&mut near, bodies, None, (state, end), shown, observer)?;
+        Ok(near.report(ended.report))
     }
 
     /// Integrates as [`integrate`](Self::integrate). Returns also the run where it ended or where the observer stopped it, which
@@ -241,7 +244,8 @@ impl HybridSymplectic {
         shown: u64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<(HybridReport, Checkpoint<T>), IntegratorsError<GravitationError>> {
-        self.run(bodies, None, state, end, shown, observer)
+        let sizes = self.sizes(bodies, state)?;
+        self.run(bodies, &sizes, None, (state, end), shown, observer)
     }
 
     /// Continues a run from a [`Checkpoint`] that this method made with the same settings and bodies: the state becomes that of the
@@ -249,8 +253,9 @@ impl HybridSymplectic {
     /// run then begins anew from the state of the checkpoint, and its report goes on counting. The critical radii are those of the start.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method,
-    /// [`IntegratorsError::WrongLength`] for one of other bodies, [`IntegratorsError::NotFinite`]. The state is then left alone.
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method or splitting,
+    /// [`IntegratorsError::WrongLength`] for one of other bodies, [`IntegratorsError::NotFinite`], [`IntegratorsError::InvalidRow`] where
+    /// it knows no splitting. What is refused leaves the state alone.
     pub fn resume<T: Real>(
         &self,
         bodies: &Gravitation,
@@ -260,39 +265,48 @@ impl HybridSymplectic {
         shown: u64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<(HybridReport, Checkpoint<T>), IntegratorsError<GravitationError>> {
-        self.run(bodies, Some(checkpoint), state, end, shown, observer)
+        let sizes = self.sizes_of(checkpoint, bodies)?;
+        self.run(bodies, &sizes, Some(checkpoint), (state, end), shown, observer)
     }
 
     fn run<T: Real>(
         &self,
         bodies: &Gravitation,
+        sizes: &Sizes,
         resumed: Option<&Checkpoint<T>>,
-        state: &mut State<T>,
-        end: f64,
+        (state, end): (&mut State<T>, f64),
         shown: u64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<(HybridReport, Checkpoint<T>), IntegratorsError<GravitationError>> {
-        const { assert!(T::LANES == 1, "each lane has its own encounters") };
-        let at_start = |t: f64| move |source| IntegratorsError::Field { t, source };
-        let sizes = if let Some(checkpoint) = resumed {
-            let n = bodies.bodies();
-            let lengths = [Planets::<T>::numbers(n), OF_STEPS + encounters::NUMBERS + n];
-            checkpoint.open(encounters::NAME, lengths, &[], &mut state.clone(), |_| Ok(()))?;
-            // Radii are part of the Hamiltonian: those of the start.
-            let critical = checkpoint.memory().1[OF_STEPS + encounters::NUMBERS..].to_vec();
-            Sizes { critical, radii: self.radii.clone().unwrap_or_default(), least: self.least_distance }
-        } else {
-            self.sizes(bodies, state).map_err(at_start(state.time))?
+        let mut near = Encounters::new(&PlanetMasses::new(bodies.parameters()), sizes);
+        let ended = self.course.integrate(&mut near, bodies, resumed, (state, end), shown, observer)?;
+        Ok((near.report(ended.report), self.course.checkpoint(&near, bodies, state, &ended)))
+    }
+
+    /// The radii of a run that is continued: they are part of the Hamiltonian, so the critical ones are those of its start.
+    fn sizes_of<T: Real>(&self, checkpoint: &Checkpoint<T>, bodies: &Gravitation) -> Result<Sizes, Failure> {
+        let n = bodies.bodies();
+        let lengths = [Planets::<T>::numbers(n), OF_STEPS + encounters::NUMBERS + n];
+        checkpoint.open(encounters::NAME, lengths, &[], &mut checkpoint.state().clone(), |_| Ok(()))?;
+        let critical = checkpoint.memory().1[OF_STEPS + encounters::NUMBERS..].to_vec();
+        let radii = self.radii.clone().unwrap_or_default();
+        let checked = || {
+            if self.radii.is_some() {
+                check_length("radii", n, radii.len())?;
+            }
+            check_radii("critical radii", &critical)
         };
-        let mut near = Encounters::new(&PlanetMasses::new(bodies.parameters()), &sizes);
-        let kept = self.course.integrate(&mut near, bodies, resumed, (state, end), shown, observer)?;
-        let mut run = kept.report();
-        run.evaluations += near.evaluations;
-        Ok((HybridReport { run, encounter_steps: near.steps, closest: near.closest }, kept))
+        checked().map_err(|source| IntegratorsError::Field { t: checkpoint.state().time, source })?;
+        Ok(Sizes { critical, radii, least: self.least_distance })
     }
 
     /// The radii of a run from a state.
-    fn sizes<T: Real>(&self, bodies: &Gravitation, state: &State<T>) -> Result<Sizes, GravitationError> {
+    fn sizes<T: Real>(&self, bodies: &Gravitation, state: &State<T>) -> Result<Sizes, Failure> {
+        let at_start = |source| IntegratorsError::Field { t: state.time, source };
+        self.sizes_at_start(bodies, state).map_err(at_start)
+    }
+
+    fn sizes_at_start<T: Real>(&self, bodies: &Gravitation, state: &State<T>) -> Result<Sizes, GravitationError> {
         let n = bodies.bodies();
         check(bodies, &state.values)?;
         let critical = if let Some(critical) = &self.critical {

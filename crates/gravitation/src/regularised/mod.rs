@@ -124,7 +124,7 @@ impl Regularised {
         end: f64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<GravitationError>> {
-        Ok(self.run(bodies, None, state, end, observer)?.0)
+        Ok(self.run(bodies, None, state, end, observer)?.report)
     }
 
     /// Integrates as [`integrate`](Self::integrate). Returns also the run where it ended or where the observer stopped it, which
@@ -139,7 +139,7 @@ impl Regularised {
         end: f64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<(Report, Checkpoint<T>), IntegratorsError<GravitationError>> {
-        self.run(bodies, None, state, end, observer)
+        Ok(self.run(bodies, None, state, end, observer)?.checkpoint(state))
     }
 
     /// Continues a run from a [`Checkpoint`] that this method made with the same settings and bodies: the state becomes that of the
@@ -149,7 +149,7 @@ impl Regularised {
     /// # Errors
     /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method,
     /// [`IntegratorsError::WrongLength`] for one of other bodies, [`IntegratorsError::NotFinite`], [`IntegratorsError::InvalidRow`] where
-    /// its chain is none. The state is then left alone.
+    /// its chain is none. What is refused leaves the state alone.
     pub fn resume<T: Real>(
         &self,
         bodies: &Gravitation,
@@ -158,7 +158,7 @@ impl Regularised {
         end: f64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<(Report, Checkpoint<T>), IntegratorsError<GravitationError>> {
-        self.run(bodies, Some(checkpoint), state, end, observer)
+        Ok(self.run(bodies, Some(checkpoint), state, end, observer)?.checkpoint(state))
     }
 
     fn run<T: Real>(
@@ -168,20 +168,24 @@ impl Regularised {
         state: &mut State<T>,
         end: f64,
         mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<(Report, Checkpoint<T>), IntegratorsError<GravitationError>> {
+    ) -> Result<Ended<T>, IntegratorsError<GravitationError>> {
         const { assert!(T::LANES == 1, "each lane has its own time") };
         let of_bodies = |state: &State<T>| {
             check(bodies, &state.values).map_err(|source| IntegratorsError::Field { t: state.time, source })
         };
+        if !end.is_finite() {
+            return Err(IntegratorsError::NotFinite { quantity: "end", index: 0, value: end, t: None });
+        }
         match resumed {
             None => of_bodies(state)?,
             Some(checkpoint) => saved::check(checkpoint, bodies.bodies(), state, of_bodies)?,
         }
-        if !end.is_finite() {
-            return Err(IntegratorsError::NotFinite { quantity: "end", index: 0, value: end, t: None });
-        }
         let mut report = resumed.map_or(Report::begin(), |checkpoint| checkpoint.report().continued());
-        let direction = (end - state.time).signum();
+        let is_there = (end - state.time).abs() <= 0.0;
+        let direction = match resumed {
+            Some(checkpoint) if is_there => saved::direction(checkpoint),
+            _ => (end - state.time).signum(),
+        };
         let mut start = state.time;
         let mut run = Run::new(bodies, &state.values, self.tolerance, direction);
         if let Some(checkpoint) = resumed
@@ -190,12 +194,12 @@ impl Regularised {
             start = begun;
         }
         let span = end - start;
-        if (end - state.time).abs() <= 0.0 {
-            return Ok((report, run.checkpoint(start, state, report)));
+        if is_there {
+            return Ok(Ended { run, start, report });
         }
         let mut values = state.values.clone();
         let error = loop {
-            if report.steps == self.most_steps {
+            if self.most_steps <= report.steps {
                 break IntegratorsError::TooManySteps { t: start + run.elapsed(), steps: report.steps };
             }
             let is_last = match run.step(span, &mut report) {
@@ -209,7 +213,7 @@ impl Regularised {
             if is_last || is_stopped {
                 report.ending = if is_stopped { Ending::Stopped } else { Ending::Reached };
                 *state = State::new(time, values).map_err(IntegratorsError::with_field_error)?;
-                return Ok((report, run.checkpoint(start, state, report)));
+                return Ok(Ended { run, start, report });
             }
         };
         run.write(&mut values);
@@ -239,6 +243,19 @@ fn check<T: Real>(bodies: &Gravitation, values: &[T]) -> Result<(), GravitationE
     match bodies.coincident(&places) {
         Some((first, second)) => Err(GravitationError::CoincidentBodies { first, second }),
         None => Ok(()),
+    }
+}
+
+/// A run where it ended, and when it began.
+struct Ended<T> {
+    run: Run<T>,
+    start: f64,
+    report: Report,
+}
+
+impl<T: Real> Ended<T> {
+    fn checkpoint(&self, state: &State<T>) -> (Report, Checkpoint<T>) {
+        (self.report, self.run.checkpoint(self.start, state, self.report))
     }
 }
 

@@ -6,13 +6,18 @@ use piola_numerics::Real;
 use super::Run;
 use super::extrapolation::{Aim, ROWS};
 use crate::GravitationError;
-use crate::checkpoint::{take, whole};
+use crate::checkpoint::{count_of, take};
 
 /// The name in a checkpoint.
 const NAME: &str = "Regularised";
 /// The numbers before the order of the chain: when the run began, its direction, the row and the step that are aimed at, and what each row
 /// found.
 const NUMBERS: usize = 4 + 2 * ROWS;
+
+/// The direction of the run that was saved.
+pub(super) fn direction<T: Real>(checkpoint: &Checkpoint<T>) -> f64 {
+    checkpoint.memory().1[1].signum()
+}
 
 /// Refuses a checkpoint that is not of this method or of so many bodies; else the state becomes its state.
 pub(super) fn check<T: Real>(
@@ -68,7 +73,7 @@ impl<T: Real> Run<T> {
             return None;
         }
         let (steps, work) = (take(&mut numbers)?, take::<f64, ROWS>(&mut numbers)?);
-        let index = |value: f64| usize::try_from(whole(value)).unwrap_or(usize::MAX);
+        let index = |value: f64| usize::try_from(count_of(value)).unwrap_or(usize::MAX);
         let work = work.map(|work| if 0.0 < work { work } else { f64::INFINITY });
         self.aim = Aim::of(index(row), step, steps, work);
         for (body, &saved) in self.chain.order.iter_mut().zip(numbers) {

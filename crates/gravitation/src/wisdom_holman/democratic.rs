@@ -120,7 +120,7 @@ impl DemocraticHeliocentric {
         shown: u64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<GravitationError>> {
-        Ok(self.course.integrate(&mut Nowhere, bodies, None, (state, end), shown, observer)?.report())
+        Ok(self.course.integrate(&mut Nowhere, bodies, None, (state, end), shown, observer)?.report)
     }
 
     /// Integrates as [`integrate`](Self::integrate). Returns also the run where it ended or where the observer stopped it, which
@@ -136,8 +136,8 @@ impl DemocraticHeliocentric {
         shown: u64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<(Report, Checkpoint<T>), IntegratorsError<GravitationError>> {
-        let kept = self.course.integrate(&mut Nowhere, bodies, None, (state, end), shown, observer)?;
-        Ok((kept.report(), kept))
+        let ended = self.course.integrate(&mut Nowhere, bodies, None, (state, end), shown, observer)?;
+        Ok((ended.report, self.course.checkpoint(&Nowhere, bodies, state, &ended)))
     }
 
     /// Continues a run from a [`Checkpoint`] that this method made with the same settings and bodies: the state becomes that of the
@@ -145,8 +145,9 @@ impl DemocraticHeliocentric {
     /// run then begins anew from the state of the checkpoint, and its report goes on counting.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method,
-    /// [`IntegratorsError::WrongLength`] for one of other bodies, [`IntegratorsError::NotFinite`]. The state is then left alone.
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method or splitting,
+    /// [`IntegratorsError::WrongLength`] for one of other bodies, [`IntegratorsError::NotFinite`], [`IntegratorsError::InvalidRow`] where
+    /// it knows no splitting. What is refused leaves the state alone.
     pub fn resume<T: Real>(
         &self,
         bodies: &Gravitation,
@@ -156,8 +157,8 @@ impl DemocraticHeliocentric {
         shown: u64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<(Report, Checkpoint<T>), IntegratorsError<GravitationError>> {
-        let kept = self.course.integrate(&mut Nowhere, bodies, Some(checkpoint), (state, end), shown, observer)?;
-        Ok((kept.report(), kept))
+        let ended = self.course.integrate(&mut Nowhere, bodies, Some(checkpoint), (state, end), shown, observer)?;
+        Ok((ended.report, self.course.checkpoint(&Nowhere, bodies, state, &ended)))
     }
 }
 

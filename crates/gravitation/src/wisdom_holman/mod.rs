@@ -56,7 +56,7 @@ use crate::check::{check_finite, check_length};
 use crate::{Gravitation, GravitationError};
 use alternation::Parts;
 use jacobi::{Coordinates, Masses};
-use run::{Course, checkpoint, open};
+use run::{Course, Ended, open};
 use steps::{Memory, Moving};
 
 /// The map of Wisdom and Holman with a fixed step.
@@ -136,7 +136,7 @@ impl WisdomHolman {
         shown: u64,
         observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<GravitationError>> {
-        Ok(self.run(bodies, None, state, end, shown, observer)?.report())
+        Ok(self.run(bodies, None, state, end, shown, observer)?.report)
     }
 
     /// Integrates as [`integrate`](Self::integrate). Returns also the run where it ended or where the observer stopped it, which
@@ -152,8 +152,8 @@ impl WisdomHolman {
         shown: u64,
         observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
     ) -> Result<(Report, Checkpoint), IntegratorsError<GravitationError>> {
-        let kept = self.run(bodies, None, state, end, shown, observer)?;
-        Ok((kept.report(), kept))
+        let ended = self.run(bodies, None, state, end, shown, observer)?;
+        Ok((ended.report, self.checkpoint(bodies, state, &ended)))
     }
 
     /// Continues a run from a [`Checkpoint`] that this method made with the same settings and bodies: the state becomes that of the
@@ -161,8 +161,9 @@ impl WisdomHolman {
     /// run then begins anew from the state of the checkpoint, and its report goes on counting.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method,
-    /// [`IntegratorsError::WrongLength`] for one of other bodies, [`IntegratorsError::NotFinite`]. The state is then left alone.
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method or splitting,
+    /// [`IntegratorsError::WrongLength`] for one of other bodies, [`IntegratorsError::NotFinite`], [`IntegratorsError::InvalidRow`] where
+    /// it knows no splitting. What is refused leaves the state alone.
     ///
     /// # Example
     /// ```
@@ -191,8 +192,14 @@ impl WisdomHolman {
         shown: u64,
         observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
     ) -> Result<(Report, Checkpoint), IntegratorsError<GravitationError>> {
-        let kept = self.run(bodies, Some(checkpoint), state, end, shown, observer)?;
-        Ok((kept.report(), kept))
+        let ended = self.run(bodies, Some(checkpoint), state, end, shown, observer)?;
+        Ok((ended.report, self.checkpoint(bodies, state, &ended)))
+    }
+
+    fn checkpoint(&self, bodies: &Gravitation, state: &State, ended: &Ended<Coordinates>) -> Checkpoint {
+        let nothing = || vec![0.0; numbers(bodies)];
+        let memory = ended.coordinates.as_ref().map_or_else(nothing, Coordinates::saved);
+        ended.checkpoint(NAME, self.course.splitting, state, memory, &[])
     }
 
     fn run(
@@ -203,15 +210,14 @@ impl WisdomHolman {
         end: f64,
         shown: u64,
         mut observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
-    ) -> Result<Checkpoint, IntegratorsError<GravitationError>> {
-        let length = Coordinates::numbers(bodies.bodies().saturating_sub(1).div_ceil(LANES));
+    ) -> Result<Ended<Coordinates>, IntegratorsError<GravitationError>> {
         let (steps, saved) = match resumed {
             None => (self.course.begin(bodies, state, end)?, None),
-            Some(checkpoint) => open(checkpoint, NAME, [length, 0], self.course, bodies, state, end)?,
+            Some(checkpoint) => open(checkpoint, NAME, [numbers(bodies), 0], self.course, bodies, state, end)?,
         };
         let mut report = resumed.map_or(Report::begin(), |checkpoint| checkpoint.report().continued());
         if steps.count == report.steps {
-            return Ok(checkpoint(NAME, &steps, state, report, None, length, &[]));
+            return Ok(Ended { report, steps, coordinates: None });
         }
         let (count, h, splitting) = (steps.count, steps.length, self.course.splitting);
         let mut run = Run::new(bodies.parameters(), &state.values, h, splitting);
@@ -246,8 +252,13 @@ impl WisdomHolman {
             }
         }
         *state = State::new(steps.time(report.steps), values).map_err(IntegratorsError::with_field_error)?;
-        Ok(checkpoint(NAME, &steps, state, report, Some(run.coordinates.saved()), length, &[]))
+        Ok(Ended { report, steps, coordinates: Some(run.coordinates) })
     }
+}
+
+/// How many numbers the state of the bodies is saved in.
+fn numbers(bodies: &Gravitation) -> usize {
+    Coordinates::numbers(bodies.bodies().saturating_sub(1).div_ceil(LANES))
 }
 
 /// Whether the map is one of these bodies, and the state theirs.

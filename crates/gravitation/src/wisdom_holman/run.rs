@@ -10,7 +10,7 @@ use piola_numerics::Real;
 use super::alternation::Parts;
 use super::planets::{PlanetMasses, Planets};
 use super::{Splitting, check};
-use crate::checkpoint::whole;
+use crate::checkpoint::count_of;
 use crate::kepler::Increment;
 use crate::{Gravitation, GravitationError};
 
@@ -37,6 +37,11 @@ pub(crate) trait Near<T> {
 
     /// Ends a step.
     fn end_step(&mut self) {}
+
+    /// How many numbers are saved.
+    fn numbers(&self) -> usize {
+        0
+    }
 
     /// What the next motions depend on, for a checkpoint.
     fn saved(&self) -> Vec<f64> {
@@ -88,6 +93,32 @@ impl EqualSteps {
     }
 }
 
+/// A run where it ended.
+pub(crate) struct Ended<C> {
+    pub(crate) report: Report,
+    pub(crate) steps: EqualSteps,
+    /// What continues the run; without it the run begins anew from the state.
+    pub(crate) coordinates: Option<C>,
+}
+
+impl<C> Ended<C> {
+    /// The checkpoint, with the coordinates as `memory`.
+    pub(crate) fn checkpoint<T: Real>(
+        &self,
+        method: &'static str,
+        splitting: Splitting,
+        state: &State<T>,
+        memory: Vec<T>,
+        others: &[f64],
+    ) -> Checkpoint<T> {
+        let Self { report, steps, coordinates } = self;
+        let made = (report.steps - steps.before) as f64;
+        let continues = f64::from(u8::from(coordinates.is_some()));
+        let of_steps = [steps.start, steps.length, made, continues, splitting.number() as f64];
+        Checkpoint::of(method, state.clone(), *report, memory, [&of_steps[..], others].concat())
+    }
+}
+
 impl Course {
     pub(crate) const fn new(step: f64, splitting: Splitting) -> Result<Self, IntegratorsError> {
         if !(0.0 < step && step < f64::INFINITY) {
@@ -119,7 +150,7 @@ impl Course {
     }
 
     /// Integrates to `end` in equal steps; from a checkpoint if there is one. The observer sees every `shown`-th step and
-    /// the last. Returns the run where it ends.
+    /// the last.
     pub(crate) fn integrate<T: Real, N: Near<T>>(
         self,
         near: &mut N,
@@ -128,8 +159,8 @@ impl Course {
         (state, end): (&mut State<T>, f64),
         shown: u64,
         mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Checkpoint<T>, Failure> {
-        let lengths = [Planets::<T>::numbers(bodies.bodies()), near.saved().len()];
+    ) -> Result<Ended<Planets<T>>, Failure> {
+        let lengths = [Planets::<T>::numbers(bodies.bodies()), near.numbers()];
         let (steps, saved) = match resumed {
             None => (self.begin(bodies, state, end)?, None),
             Some(checkpoint) => open(checkpoint, N::NAME, lengths, self, bodies, state, end)?,
@@ -140,7 +171,7 @@ impl Course {
             near.restore(&checkpoint.memory().1[OF_STEPS..]);
         }
         if steps.count == report.steps {
-            return Ok(checkpoint(N::NAME, &steps, state, report, None, lengths[0], &near.saved()));
+            return Ok(Ended { report, steps, coordinates: None });
         }
         let (count, h) = (steps.count, steps.length);
         let mut run = Run::new(near, bodies.parameters(), &state.values, h, self.splitting);
@@ -190,33 +221,28 @@ impl Course {
             *state = State::new(time(reached), values).map_err(IntegratorsError::with_field_error)?;
         }
         match failure {
-            None => {
-                let memory = run.is_ahead.then(|| run.planets.saved());
-                Ok(checkpoint(N::NAME, &steps, state, report, memory, lengths[0], &run.near.saved()))
-            }
+            None => Ok(Ended { report, steps, coordinates: run.is_ahead.then_some(run.planets) }),
             Some(error) => Err(error),
         }
     }
+
+    /// The checkpoint of a run that [`integrate`](Self::integrate) has made, with its report.
+    pub(crate) fn checkpoint<T: Real, N: Near<T>>(
+        self,
+        near: &N,
+        bodies: &Gravitation,
+        state: &State<T>,
+        ended: &Ended<Planets<T>>,
+    ) -> Checkpoint<T> {
+        let nothing = || vec![T::zero(); Planets::<T>::numbers(bodies.bodies())];
+        let memory = ended.coordinates.as_ref().map_or_else(nothing, Planets::saved);
+        ended.checkpoint(N::NAME, self.splitting, state, memory, &near.saved())
+    }
 }
 
-/// The numbers that all maps keep: when the steps began, their length, how many are made, and whether the memory continues them.
-pub(crate) const OF_STEPS: usize = 4;
-
-/// A checkpoint after `report.steps` of the steps; without a memory the run begins anew from the state.
-pub(crate) fn checkpoint<T: Real>(
-    method: &'static str,
-    steps: &EqualSteps,
-    state: &State<T>,
-    report: Report,
-    memory: Option<Vec<T>>,
-    length: usize,
-    others: &[f64],
-) -> Checkpoint<T> {
-    let made = (report.steps - steps.before) as f64;
-    let of_steps = [steps.start, steps.length, made, f64::from(u8::from(memory.is_some()))];
-    let memory = memory.unwrap_or_else(|| vec![T::zero(); length]);
-    Checkpoint::of(method, state.clone(), report, memory, [&of_steps[..], others].concat())
-}
+/// The numbers that all maps keep: when the steps began, their length, how many are made, whether the memory continues them,
+/// and the number of the splitting.
+pub(crate) const OF_STEPS: usize = 5;
 
 /// The steps of a run that goes on to `end`, and its memory if they are those of the checkpoint. The state becomes that of the checkpoint.
 pub(crate) fn open<'a, T: Real>(
@@ -228,25 +254,31 @@ pub(crate) fn open<'a, T: Real>(
     state: &mut State<T>,
     end: f64,
 ) -> Result<(EqualSteps, Option<&'a [T]>), Failure> {
-    checkpoint.open(method, [memory, OF_STEPS + others], &[], state, |state| {
-        let t = state.time;
-        check(bodies, &state.values).map_err(|source| IntegratorsError::Field { t, source })
+    let mut opened = checkpoint.state().clone();
+    checkpoint.open(method, [memory, OF_STEPS + others], &[], &mut opened, |opened| {
+        check(bodies, &opened.values).map_err(|source| IntegratorsError::Field { t: opened.time, source })
     })?;
     let (memory, numbers) = checkpoint.memory();
     let report = checkpoint.report();
-    let [start, length, made, continues] = [numbers[0], numbers[1], numbers[2], numbers[3]];
+    let [begun, length, made, continues, splitting] = [0, 1, 2, 3, 4].map(|index| numbers[index]);
+    course.splitting.check_number(splitting)?;
     if 0.0 < continues
         && end.is_finite()
-        && let Ok((count, h)) = equal_steps::<Infallible>(start, end, course.step)
+        && let Ok((count, h)) = equal_steps::<Infallible>(begun, end, course.step)
         && h.to_bits() == length.to_bits()
         && made < count as f64
     {
-        let before = report.steps.saturating_sub(whole(made));
-        return Ok((EqualSteps { start, end, count: before + count, length, before }, Some(memory)));
+        *state = opened;
+        let before = report.steps.saturating_sub(count_of(made));
+        return Ok((
+            EqualSteps { start: begun, end, count: before.saturating_add(count), length, before },
+            Some(memory),
+        ));
     }
-    let steps = course.begin(bodies, state, end)?;
+    let anew = course.begin(bodies, &opened, end)?;
+    *state = opened;
     let before = report.steps;
-    Ok((EqualSteps { count: before + steps.count, before, ..steps }, None))
+    Ok((EqualSteps { count: before.saturating_add(anew.count), before, ..anew }, None))
 }
 
 /// A run: between steps it stands after the first motion of the next one, at last at the end of the last one.

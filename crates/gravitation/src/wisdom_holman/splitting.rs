@@ -1,5 +1,7 @@
 //! How Kepler's motions and the attractions between planets take turns.
 
+use piola_integrators::IntegratorsError;
+
 /// How a step alternates Kepler's motions (K) and the attractions between the planets (A), which are ε times as strong.
 ///
 /// | splitting | attractions a step | error of the energy |
@@ -55,6 +57,33 @@ impl Splitting {
         self.stages().attractions.len()
     }
 
+    /// The number in a checkpoint, an index of [`NAMES`].
+    pub(super) const fn number(self) -> usize {
+        match self {
+            Self::Leapfrog => 0,
+            Self::TenSixFour => 1,
+            Self::Corrected(Corrector::Three) => 2,
+            Self::Corrected(Corrector::Five) => 3,
+            Self::Corrected(Corrector::Seven) => 4,
+            Self::Corrected(Corrector::Eleven) => 5,
+            Self::Corrected(Corrector::Seventeen) => 6,
+        }
+    }
+
+    /// Refuses a checkpoint with another number.
+    pub(super) fn check_number<E>(self, number: f64) -> Result<(), IntegratorsError<E>> {
+        match (0..NAMES.len()).find(|&index| (index as f64).total_cmp(&number).is_eq()) {
+            Some(found) if found == self.number() => Ok(()),
+            Some(found) => Err(IntegratorsError::WrongMethod { expected: NAMES[self.number()], found: NAMES[found] }),
+            None => Err(IntegratorsError::InvalidRow {
+                quantity: "checkpoint.numbers",
+                index: PLACE_OF_NUMBER,
+                value: number,
+                dimension: NAMES.len(),
+            }),
+        }
+    }
+
     pub(super) const fn stages(self) -> Stages {
         match self {
             Self::Leapfrog | Self::Corrected(_) => Stages { motions: &[0.5, 0.5], attractions: &[1.0] },
@@ -90,6 +119,19 @@ impl Splitting {
         }
     }
 }
+
+/// Where a checkpoint keeps the number, after when the steps began, their length, how many are made, and whether the memory continues them.
+const PLACE_OF_NUMBER: usize = 4;
+/// The names of the splittings, by their numbers.
+const NAMES: [&str; 7] = [
+    "Leapfrog",
+    "TenSixFour",
+    "Corrected(Three)",
+    "Corrected(Five)",
+    "Corrected(Seven)",
+    "Corrected(Eleven)",
+    "Corrected(Seventeen)",
+];
 
 /// A step: motions and attractions in turn, from a motion to a motion, in units of the step.
 #[derive(Clone, Copy)]

@@ -2,10 +2,10 @@
 
 use std::ops::ControlFlow;
 
-use piola_gravitation::Gravitation;
-use piola_gravitation::hybrid::HybridSymplectic;
+use piola_gravitation::hybrid::{HybridSymplectic, critical_radii};
 use piola_gravitation::regularised::Regularised;
-use piola_gravitation::wisdom_holman::{DemocraticHeliocentric, Splitting, WisdomHolman};
+use piola_gravitation::wisdom_holman::{Corrector, DemocraticHeliocentric, Splitting, WisdomHolman};
+use piola_gravitation::{Gravitation, GravitationError};
 use piola_integrators::{Checkpoint, Ending, IntegratorsError, State, Step};
 use piola_numerics::{Dual, Real};
 use piola_testkit::golden;
@@ -30,12 +30,24 @@ fn elsewhere() -> State {
     State::new(7.0, vec![1.0]).unwrap()
 }
 
+/// Each number as the other one, but for rounding that the way magnifies.
+fn assert_near(found: &[f64], expected: &[f64], bound: f64, what: &impl std::fmt::Display) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() < bound, "{what}: {found} and {expected}");
+    }
+}
+
 /// The steps after which the observers stop.
 const STOPS: [u64; 4] = [1, 2, 31, 99];
 
 /// The continued runs of a map equal the whole one, whichever step they were stopped at, also after a second stop.
 macro_rules! assert_continues {
     ($what:expr, $method:expr, $bodies:expr, $start:expr, $end:expr) => {
+        assert_continues!($what, $method, $method, $bodies, $start, $end)
+    };
+    // `anew` begins runs on the way as `method` continues them.
+    ($what:expr, $method:expr, $anew:expr, $bodies:expr, $start:expr, $end:expr) => {
         let (what, method, bodies, start) = ($what, $method, $bodies, || State::new(0.0, $start.clone()).unwrap());
         let end: f64 = $end;
         let mut whole = start();
@@ -51,8 +63,13 @@ macro_rules! assert_continues {
             // Of a run that has come to its end nothing is left, and it goes on to another one.
             assert_eq!(method.resume(bodies, &last, &mut continued, end, 1, go_on).unwrap().0, report, "{what}");
             assert_eq!(continued, whole, "{what}");
-            let (third, _) = method.resume(bodies, &kept, &mut continued, 0.7 * end, 0, go_on).unwrap();
-            assert!(first != third && continued.time.to_bits() == (0.7 * end).to_bits(), "{what}");
+            for (kept, other) in [(&last, 1.2 * end), (&kept, 0.7 * end)] {
+                let (third, _) = method.resume(bodies, kept, &mut continued, other, 0, go_on).unwrap();
+                let mut begun = State::new(kept.state().time, kept.state().values.clone()).unwrap();
+                $anew.integrate_to(bodies, &mut begun, other).unwrap();
+                assert!(first != third && continued.time.to_bits() == other.to_bits(), "{what}");
+                assert_near(&continued.values, &begun.values, 1e-12, &what);
+            }
         }
     };
 }
@@ -84,7 +101,10 @@ fn runs_through_encounters_continue_from_any_step() {
     let (bodies, start) = meeting();
     for splitting in [Splitting::Leapfrog, Splitting::TenSixFour] {
         let method = HybridSymplectic::new(0.1, splitting).unwrap();
-        assert_continues!(format!("{splitting:?}"), &method, &bodies, start, 12.0);
+        // Three Hill radii are longer than what a planet travels in the step.
+        let critical = critical_radii(&bodies, &start, 3.0, 0.1).unwrap();
+        let anew = method.clone().with_critical_radii(critical).unwrap();
+        assert_continues!(format!("{splitting:?}"), &method, &anew, &bodies, start, 12.0);
         let mut state = State::new(0.0, start.clone()).unwrap();
         let (report, _) = method.integrate_to_checkpoint(&bodies, &mut state, 12.0, 0, go_on).unwrap();
         assert!(0 < report.encounter_steps && report.closest.is_some(), "{report:?}");
@@ -113,8 +133,15 @@ fn regularised_runs_continue_from_any_step() {
             let (mut stopped, mut continued) = (State::new(0.0, start.clone()).unwrap(), elsewhere());
             let (first, kept) = method.integrate_to_checkpoint(&bodies, &mut stopped, end, stop(at)).unwrap();
             assert_eq!((first.steps, first.ending), (at, Ending::Stopped));
-            let (second, last) = method.resume(&bodies, &written(&kept), &mut continued, end, go_on).unwrap();
+            // Its own time is no other direction.
+            let (there, same) = method.resume(&bodies, &kept, &mut continued, kept.state().time, go_on).unwrap();
+            assert_eq!((there.steps, &continued), (at, &stopped));
+            let (second, last) = method.resume(&bodies, &written(&same), &mut continued, end, go_on).unwrap();
             assert_eq!((second, &continued), (report, &whole), "stopped at {at}");
+            // Steps that were made already are steps.
+            let most = method.with_most_steps(at - 1);
+            let result = most.resume(&bodies, &kept, &mut elsewhere(), end, go_on).err();
+            assert!(matches!(result, Some(IntegratorsError::TooManySteps { steps, .. }) if steps == at), "{result:?}");
             // Farther, and back to the start.
             method.resume(&bodies, &last, &mut continued, 1.1 * end, go_on).unwrap();
             assert_eq!(continued.time.to_bits(), (1.1 * end).to_bits());
@@ -164,6 +191,52 @@ fn checkpoints_of_other_methods_and_bodies_are_refused_and_leave_the_state() {
     long(jacobi.resume(&more, &of_jacobi, &mut left, 5.0, 0, go_on).err());
     long(hybrid.resume(&more, &of_hybrid, &mut left, 5.0, 0, go_on).err());
     long(regularised.resume(&more, &of_chain, &mut left, 5.0, go_on).err());
+    // An end that is none.
+    let no_end = |result: Option<IntegratorsError<_>>| {
+        assert!(matches!(result, Some(IntegratorsError::NotFinite { quantity: "end", .. })), "{result:?}");
+    };
+    let heliocentric = DemocraticHeliocentric::new(0.1, Splitting::Leapfrog).unwrap();
+    let (_, of_heliocentric) = heliocentric.integrate_to_checkpoint(&bodies, &mut state(), 5.0, 1, stop(3)).unwrap();
+    for end in [f64::NAN, f64::INFINITY] {
+        no_end(jacobi.resume(&bodies, &of_jacobi, &mut left, end, 0, go_on).err());
+        no_end(heliocentric.resume(&bodies, &of_heliocentric, &mut left, end, 0, go_on).err());
+        no_end(hybrid.resume(&bodies, &of_hybrid, &mut left, end, 0, go_on).err());
+        no_end(regularised.resume(&bodies, &of_chain, &mut left, end, go_on).err());
+    }
+    // Another splitting, also where the steps are the same; and a number of none.
+    let other = |result: Option<IntegratorsError<_>>, expected: &str| {
+        let is_it = |found: &_| matches!(found, IntegratorsError::WrongMethod { expected: named, found: "Leapfrog" } if *named == expected);
+        assert!(result.as_ref().is_some_and(is_it), "{result:?}");
+    };
+    for (splitting, name) in
+        [(Splitting::TenSixFour, "TenSixFour"), (Splitting::Corrected(Corrector::Seventeen), "Corrected(Seventeen)")]
+    {
+        let jacobi = WisdomHolman::new(0.1, splitting).unwrap();
+        other(jacobi.resume(&bodies, &of_jacobi, &mut left, 5.0, 0, go_on).err(), name);
+        let heliocentric = DemocraticHeliocentric::new(0.1, splitting).unwrap();
+        other(heliocentric.resume(&bodies, &of_heliocentric, &mut left, 5.0, 0, go_on).err(), name);
+        let hybrid = HybridSymplectic::new(0.1, splitting).unwrap();
+        other(hybrid.resume(&bodies, &of_hybrid, &mut left, 5.0, 0, go_on).err(), name);
+    }
+    let mut unknown = serde_json::to_value(&of_jacobi).unwrap();
+    unknown["numbers"][4] = 9.0.into();
+    let unknown: Checkpoint = serde_json::from_value(unknown).unwrap();
+    let result = jacobi.resume(&bodies, &unknown, &mut left, 5.0, 0, go_on).err();
+    assert!(matches!(result, Some(IntegratorsError::InvalidRow { index: 4, .. })), "{result:?}");
+    // Radii of other bodies, and critical radii that are none.
+    let wide = hybrid.clone().with_radii(vec![1e-9; 2]).unwrap();
+    let result = wide.resume(&bodies, &of_hybrid, &mut left, 5.0, 0, go_on).err();
+    let Some(IntegratorsError::Field { source: GravitationError::WrongLength { .. }, .. }) = result else {
+        panic!("{result:?}")
+    };
+    let mut negative = serde_json::to_value(&of_hybrid).unwrap();
+    let last = negative["numbers"].as_array().unwrap().len() - 1;
+    negative["numbers"][last] = (-1.0).into();
+    let negative: Checkpoint = serde_json::from_value(negative).unwrap();
+    let result = hybrid.resume(&bodies, &negative, &mut left, 5.0, 0, go_on).err();
+    let Some(IntegratorsError::Field { source: GravitationError::InvalidRadius { .. }, .. }) = result else {
+        panic!("{result:?}")
+    };
     // A chain in which a body stands twice, and a row beyond the last.
     let text = serde_json::to_value(&of_chain).unwrap();
     let last = text["numbers"].as_array().unwrap().len() - 1;

@@ -90,10 +90,10 @@ fn statistics_of_a_power_law_equal_the_regression_of_logarithms() {
     assert_eq!((fit.degrees_of_freedom, fit.starts_that_agree), (4, 2));
 }
 
-/// The viscosity at infinite rates is told to ± 40 %. An interval symmetric in its logarithm alone would miss 74 ± 8 of a thousand, almost all
+/// The viscosity at infinite rates is determined to ± 40 %. An interval symmetric in its logarithm alone would miss 74 ± 8 of a thousand, almost all
 /// below the interval.
 #[test]
-fn linear_intervals_of_a_viscosity_told_badly_hold_the_truth_as_often_as_they_say() {
+fn linear_intervals_of_a_poorly_determined_viscosity_hold_the_truth_as_often_as_they_say() {
     let truth = [10.0, 0.01, 1.0, 0.4, 2.0];
     let fluid = CarreauYasuda::new(truth[0], truth[1], truth[2], truth[3], truth[4]).expect("a fluid");
     let (mut normal, mut missed, mut told) = (NormalNoise(9), 0_u32, 0_u32);
@@ -112,7 +112,7 @@ fn linear_intervals_of_a_viscosity_told_badly_hold_the_truth_as_often_as_they_sa
     assert!(950 <= told && (29..=71).contains(&missed), "{missed} of {told}");
 }
 
-/// Ellis' fluid whose thinning has only begun at the fastest row: half stress and exponent are told badly, and not linearly.
+/// Ellis' fluid whose thinning has only begun at the fastest row: half stress and exponent are poorly determined, and not linearly.
 #[test]
 fn profile_intervals_of_a_badly_determined_fluid_hold_the_truth_as_often_as_they_say() {
     let truth = [10.0, 40.0, 2.0];
