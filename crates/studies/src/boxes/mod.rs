@@ -16,7 +16,7 @@ pub use motion::{MotionHistory, MotionInstant};
 pub use run::{BoxFindings, Found};
 pub use statics::StaticField;
 
-use piola_spectral::{BoxGrid, LameParameters, Walls};
+use piola_spectral::{BoxGrid, LameParameters, PointLocation, Walls};
 
 /// Instants of a motion, and steps of a flow, at most.
 pub const MOST_STEPS: f64 = 100_000.0;
