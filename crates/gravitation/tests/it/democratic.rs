@@ -70,12 +70,17 @@ fn end_converges_with_the_square_of_the_step_over_two_decades() {
 
 #[test]
 fn errors_fall_with_the_powers_of_step_and_mass_that_are_promised() {
+    // Over two decades: ε² h² of the corrected map, and ε³ h⁴ with planets so heavy that it stands above rounding.
     let (bodies, start) = planets(3, 1e-3);
-    let steps = [0.2, 0.1, 0.05];
+    let steps = [0.1, 0.032, 0.01, 0.0032, 0.001];
     for splitting in [Splitting::Leapfrog, Splitting::Corrected(Corrector::Seventeen)] {
-        let errors = steps.map(|step| energy_error(&bodies, &start, splitting, step, 60.0));
-        assert_order(&format!("{splitting:?}"), &steps, &errors, 2.0, 0.2);
+        let errors = steps.map(|step| energy_error(&bodies, &start, splitting, step, 8.0));
+        assert_order(&format!("{splitting:?}"), &steps, &errors, 2.0, 0.1);
     }
+    let (bodies, start) = planets(3, 0.07);
+    let steps = [0.2, 0.063, 0.02, 0.0063, 0.002];
+    let errors = steps.map(|step| energy_error(&bodies, &start, Splitting::TenSixFour, step, 8.0));
+    assert_order("(10, 6, 4)", &steps, &errors, 4.0, 0.1);
     // The correctors take away what is of first order in the masses, of the central body's motion too.
     let masses = [4e-4, 2e-4, 1e-4];
     for (splitting, order) in [(Splitting::Leapfrog, 1.0), (Splitting::Corrected(Corrector::Seventeen), 2.0)] {
@@ -85,10 +90,6 @@ fn errors_fall_with_the_powers_of_step_and_mass_that_are_promised() {
         });
         assert_order(&format!("{splitting:?} in the mass"), &masses, &errors, order, 0.2);
     }
-    let (bodies, start) = planets(2, 3e-3);
-    let steps = [0.4, 0.2];
-    let errors = steps.map(|step| energy_error(&bodies, &start, Splitting::TenSixFour, step, 60.0));
-    assert_order("(10, 6, 4)", &steps, &errors, 4.0, 0.3);
 }
 
 #[test]

@@ -49,6 +49,11 @@ use crate::{Checkpoint, IntegratorsError, Report, SecondOrder, State, Tolerance}
 /// # Accuracy
 /// Global error O(h¹⁶), until rounding; the state is summed with compensation.
 ///
+/// # Cost
+/// Four to nine sweeps a step, each an evaluation in lanes and the products of the tableau, 12 to 18 ns a coordinate. Both alone take 0.8 of a run
+/// of the double pendulum, and half of one on Kepler's ellipse of e = 0.9 and in Hénon and Heiles' potential: no run can be faster than that
+/// part. The example `floors` measures them, and the page *Integration* of the measurements has the table.
+///
 /// # Example
 /// ```
 /// use core::convert::Infallible;

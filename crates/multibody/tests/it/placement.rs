@@ -1,12 +1,12 @@
 //! Trees against the placement path: the same bodies as particles, by Lagrange's equations.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-use piola_multibody::{BodyIndex, BodyInertia, JointKind, RigidTree, TreeJoint};
+use piola_lagrangian::{Holonomic, Lagrangian, Placement, Reaction, Workspace};
+use piola_multibody::{BodyIndex, BodyInertia, JointKind, JointReaction, RigidTree, TreeJoint};
 use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close};
 
-use crate::trees::{odd_body, state_of};
+use crate::trees::{State, odd_body, state_of};
 
 /// A tree in coordinates δ about a configuration: six particles in the place of each body.
 struct Particles {
@@ -64,6 +64,48 @@ fn compare(kinds: &[JointKind], parents: &[usize]) {
     tree.forward_dynamics(&mut work, &state.q, &state.v, &zero, &mut a).unwrap();
     let expected = lagrangian.acceleration(&zero, &state.v, 0.0).unwrap();
     assert_close("accelerations", &a, expected.as_slice(), Tol::stated(1e-12, "ulp times κ, about 10³"));
+    compare_reactions(&tree, &lagrangian, kinds, parents, &state);
+}
+
+/// What a joint carries is the sum of the reactions on the particles of all bodies beyond it.
+fn compare_reactions(
+    tree: &RigidTree,
+    lagrangian: &Lagrangian<Particles>,
+    kinds: &[JointKind],
+    parents: &[usize],
+    state: &State,
+) {
+    let zero = vec![0.0; tree.freedoms()];
+    let mut on_particles = vec![Reaction::none(); 6 * kinds.len()];
+    lagrangian
+        .reactions_at_acceleration_into(&mut Workspace::default(), &zero, &state.v, &state.a, 0.0, &mut on_particles)
+        .unwrap();
+    let mut compared = 0;
+    for joint in (0..kinds.len()).filter(|&joint| kinds[joint] != JointKind::Fixed) {
+        let mut found = [JointReaction { point: [0.0; 3], moment: [0.0; 3], force: [0.0; 3] }];
+        let mut work = tree.workspace();
+        tree.joint_reactions(&mut work, &state.q, &state.v, &state.a, &[], &[joint], &mut found).unwrap();
+        let [JointReaction { point, moment, force }] = found;
+        let is_beyond = |mut body: usize| loop {
+            match parents[body] {
+                _ if body == joint => break true,
+                0 => break false,
+                parent => body = parent - 1,
+            }
+        };
+        let mut sums = [Vector3::zeros(); 2];
+        for (body, particles) in on_particles.chunks_exact(6).enumerate().filter(|&(body, _)| is_beyond(body)) {
+            for particle in particles {
+                sums[0] += particle.force();
+                sums[1] += particle.moment_about(&Vector3::from(point));
+            }
+            compared += usize::from(body == joint);
+        }
+        let rounding = Tol::ulps_because(4096.0, "both sides sum over bodies or particles");
+        assert_close("reaction", &force, sums[0].as_slice(), rounding);
+        assert_close("moment of the reaction", &moment, sums[1].as_slice(), rounding);
+    }
+    assert!(2 <= compared);
 }
 
 const AXIS: [f64; 3] = [0.48, 0.6, 0.64];

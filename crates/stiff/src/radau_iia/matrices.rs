@@ -1,5 +1,7 @@
 //! Mass matrix, Jacobian and the factored matrices of a step, dense or sparse.
 
+use core::ops::{AddAssign, Mul};
+
 use num_complex::Complex64;
 
 use super::lu::Factors;
@@ -138,6 +140,19 @@ fn check_mass<F: StiffField>(n: usize, field: &F) -> Result<(), IntegratorsError
     Ok(())
 }
 
+/// entries ← entries + factor M; M is the identity where it is empty.
+fn add_mass<T: Copy + AddAssign + Mul<f64, Output = T>>(mass: &[f64], factor: T, n: usize, entries: &mut [T]) {
+    if mass.is_empty() {
+        for entry in entries.iter_mut().step_by(n + 1) {
+            *entry += factor;
+        }
+    } else {
+        for (entry, &m) in entries.iter_mut().zip(mass) {
+            *entry += factor * m;
+        }
+    }
+}
+
 /// Matrices of n×n entries, down their columns.
 #[derive(Clone, Debug, Default)]
 pub(super) struct DenseMatrices {
@@ -170,18 +185,17 @@ impl DenseMatrices {
 
     fn factor(&mut self, tableau: &Tableau, h: f64) -> Result<(), usize> {
         let n = self.real.order();
-        let identity = self.mass.is_empty();
-        let mass = |k: usize| if identity { f64::from(u8::from(k.is_multiple_of(n + 1))) } else { self.mass[k] };
         let gamma = tableau.real / h;
-        for (k, (entry, j)) in self.real.entries.iter_mut().zip(&self.jacobian).enumerate() {
-            *entry = gamma * mass(k) - j;
+        for (entry, j) in self.real.entries.iter_mut().zip(&self.jacobian) {
+            *entry = -j;
         }
+        add_mass(&self.mass, gamma, n, &mut self.real.entries);
         self.real.factor()?;
-        for (factors, [alpha, beta]) in self.complex.iter_mut().zip(tableau.pairs) {
-            let (alpha, beta) = (alpha / h, beta / h);
-            for (k, (entry, j)) in factors.entries.iter_mut().zip(&self.jacobian).enumerate() {
-                *entry = Complex64::new(alpha * mass(k) - j, -beta * mass(k));
+        for (factors, &[alpha, beta]) in self.complex.iter_mut().zip(tableau.pairs) {
+            for (entry, j) in factors.entries.iter_mut().zip(&self.jacobian) {
+                *entry = Complex64::new(-j, 0.0);
             }
+            add_mass(&self.mass, Complex64::new(alpha / h, -beta / h), n, &mut factors.entries);
             factors.factor()?;
         }
         Ok(())

@@ -100,6 +100,11 @@ use crate::StiffField;
 /// positions and velocities are within the tolerance if the constraints are on accelerations (index 1), within twelve times the
 /// tolerance if they are on velocities (index 2). Reactions of index 2 are some hundred times less accurate. The state and the time are summed with compensation.
 ///
+/// # Cost
+/// Factorisations and solutions take most of a run: half of it to nine tenths on a chain of twenty stiff springs, by the last table of the example
+/// `stiff`. Rows and columns that are zero beyond a band are left out. Where the fastest decay leaves an explicit method of high order long
+/// enough steps, it is as fast at errors of 1e-10 and faster below: see the page *Integration* of the measurements.
+///
 /// # Example
 /// ```
 /// use core::convert::Infallible;

@@ -8,10 +8,14 @@
 //! evaluations of the field, and the time of so many evaluations alone. A method with these evaluations cannot be faster than that. Times
 //! are the least of many, points of a curve are interpolated.
 //!
-//! The second table has Taylor's method with a recursion written by hand for Hénon and Heiles' potential, in five orders. It shows what Taylor's
+//! The second table adds to the evaluations of Gauss–Legendre collocation the products of its tableau alone: the floor of that method.
+//!
+//! The last table has Taylor's method with a recursion written by hand for Hénon and Heiles' potential, in five orders. It shows what Taylor's
 //! method can gain on a field of polynomials, without the cost of a recorded formula.
 
 #![expect(clippy::print_stdout, reason = "it prints its tables")]
+
+mod tableau;
 
 use std::convert::Infallible;
 use std::f64::consts::TAU;
@@ -23,6 +27,7 @@ use piola_integrators::{
     SecondOrder, State, Tolerance, Verner98,
 };
 use piola_numerics::{Kernel, Lanes, Real, dispatch};
+use tableau::products;
 
 /// Accelerations over any scalar, of two coordinates.
 trait Motion: Copy {
@@ -125,6 +130,7 @@ impl Motion for DoublePendulum {
 struct Point {
     error: f64,
     evaluations: f64,
+    steps: f64,
     seconds: f64,
 }
 
@@ -157,17 +163,23 @@ fn curve(
             work.time = 0.0;
             let _ = black_box(run(tolerance, black_box(&mut work)));
         });
-        points.push(Point { error, evaluations: report.evaluations as f64, seconds });
+        points.push(Point { error, evaluations: report.evaluations as f64, steps: report.steps as f64, seconds });
     }
     Ok(points)
 }
 
-/// Evaluations and seconds at an error, on the straight line between neighbours in logarithms.
-fn at(points: &[Point], error: f64) -> Option<(f64, f64)> {
+/// Evaluations, steps and seconds at an error, on the straight line between neighbours in logarithms.
+fn at(points: &[Point], error: f64) -> Option<Point> {
     points.windows(2).find(|pair| error <= pair[0].error && pair[1].error <= error).map(|pair| {
         let part = (pair[0].error / error).ln() / (pair[0].error / pair[1].error).ln().max(f64::MIN_POSITIVE);
         let between = |a: f64, b: f64| a * (b / a).powf(part.clamp(0.0, 1.0));
-        (between(pair[0].evaluations, pair[1].evaluations), between(pair[0].seconds, pair[1].seconds))
+        let [a, b] = [pair[0], pair[1]];
+        Point {
+            error,
+            evaluations: between(a.evaluations, b.evaluations),
+            steps: between(a.steps, b.steps),
+            seconds: between(a.seconds, b.seconds),
+        }
     })
 }
 
@@ -207,7 +219,8 @@ fn evaluation<M: Motion>(motion: M, start: [f64; 4]) -> (f64, f64) {
     (one / f64::from(COUNT), eight / f64::from(COUNT))
 }
 
-fn table<M: Motion>(name: &str, motion: M, start: [f64; 4], end: f64) -> Result<(), IntegratorsError> {
+/// Prints the rows of a problem, and returns those of the table of the tableau.
+fn table<M: Motion>(name: &str, motion: M, start: [f64; 4], end: f64) -> Result<Vec<String>, IntegratorsError> {
     let equations = Equations(motion);
     let mut reference = State::new(0.0, start.to_vec())?;
     GaussRadau15::to_rounding().integrate_to(&mut equations.clone(), &mut reference, end)?;
@@ -247,9 +260,11 @@ fn table<M: Motion>(name: &str, motion: M, start: [f64; 4], end: f64) -> Result<
         ));
     }
     let (one, eight) = evaluation(motion, start);
+    let [sweep, begin] = products(2, M::VELOCITY_DEPENDENT);
+    let mut rows = Vec::new();
     for error in [1e-6, 1e-8, 1e-10, 1e-12] {
         for (method, curve) in &curves {
-            let Some((evaluations, seconds)) = at(curve, error) else { continue };
+            let Some(Point { evaluations, steps, seconds, .. }) = at(curve, error) else { continue };
             // Eight stages are one evaluation in lanes.
             let alone = if method.contains("16") { evaluations / 8.0 * eight } else { evaluations * one };
             println!(
@@ -258,9 +273,21 @@ fn table<M: Motion>(name: &str, motion: M, start: [f64; 4], end: f64) -> Result<
                 alone * 1e6,
                 alone / seconds
             );
+            if method.contains("16") {
+                let sweeps = evaluations / 8.0;
+                let products = sweeps * sweep + steps * begin;
+                rows.push(format!(
+                    "| {name} | {error:.0e} | {:.1} | {steps:.0} | {sweeps:.0} | {:.1} | {:.1} | {:.1} | {:.2} |",
+                    seconds * 1e6,
+                    alone * 1e6,
+                    products * 1e6,
+                    (alone + products) * 1e6,
+                    (alone + products) / seconds
+                ));
+            }
         }
     }
-    Ok(())
+    Ok(rows)
 }
 
 /// One step of Taylor's method of order P for Hénon and Heiles' potential, no longer than `rest`; returns its length.
@@ -317,11 +344,11 @@ fn row<const P: usize>(start: [f64; 4], end: f64) {
             let seconds = least(|| {
                 black_box(taylor::<P>(black_box(start), end, tolerance));
             });
-            Point { error, evaluations: f64::from(steps), seconds }
+            Point { error, evaluations: f64::from(steps), steps: f64::from(steps), seconds }
         })
         .collect();
     let cells = [1e-6, 1e-8, 1e-10, 1e-12]
-        .map(|error| at(&points, error).map_or("–".into(), |(_, seconds)| format!("{:.1}", seconds * 1e6)));
+        .map(|error| at(&points, error).map_or("–".into(), |point| format!("{:.1}", point.seconds * 1e6)));
     println!("| {P} | {} |", cells.join(" | "));
 }
 
@@ -329,10 +356,17 @@ fn main() -> Result<(), IntegratorsError> {
     println!("| problem | error | method | run, µs | evaluations | evaluations alone, µs | part of the run |");
     println!("|---|---|---|---|---|---|---|");
     let henon = [0.0, 0.1, 0.490_577_889_167_25, 0.0];
-    table("Hénon–Heiles", HenonHeiles, henon, 100.0)?;
-    table("Kepler, e = 0.9", Kepler, [1.9, 0.0, 0.0, (0.1_f64 / 1.9).sqrt()], 10.0 * TAU)?;
-    table("Arenstorf", Arenstorf, [0.994, 0.0, 0.0, -2.001_585_106_379_082_5], 17.065_216_560_157_964)?;
-    table("double pendulum", DoublePendulum, [0.25 * TAU, 0.25 * TAU, 0.0, 0.0], 10.0)?;
+    let mut rows = table("Hénon–Heiles", HenonHeiles, henon, 100.0)?;
+    rows.extend(table("Kepler, e = 0.9", Kepler, [1.9, 0.0, 0.0, (0.1_f64 / 1.9).sqrt()], 10.0 * TAU)?);
+    rows.extend(table("Arenstorf", Arenstorf, [0.994, 0.0, 0.0, -2.001_585_106_379_082_5], 17.065_216_560_157_964)?);
+    rows.extend(table("double pendulum", DoublePendulum, [0.25 * TAU, 0.25 * TAU, 0.0, 0.0], 10.0)?);
+    println!(
+        "\n| problem | error | run, µs | steps | sweeps | evaluations, µs | products, µs | both, µs | part of the run |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|");
+    for row in rows {
+        println!("{row}");
+    }
     println!("\n| order of Taylor's method, Hénon–Heiles | 1e-6, µs | 1e-8, µs | 1e-10, µs | 1e-12, µs |");
     println!("|---|---|---|---|---|");
     row::<12>(henon, 100.0);
