@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use piola_charts::{Folder, Written};
+use piola_charts::Folder;
 use piola_ensemble::{
     Ensemble, EnsembleError, Options, Portion, Ranks, Results, agree, compute_across, predicted_seconds,
 };
@@ -55,11 +55,14 @@ pub(crate) fn sweep(arguments: &SweepArguments, ranks: &dyn Ranks) -> Exit {
     });
     match collected {
         Ok((_, Some(results))) => {
-            let mut written = results.write(&folder);
-            if let Err(error) = add_parquet(arguments, &results, (&folder, &mut written)) {
-                failure(&error, arguments.scene.json);
-                return Exit::Failed;
-            }
+            let parquet = match parquet(arguments, &results) {
+                Ok(content) => content.map(|content| ("members.parquet", content)),
+                Err(error) => {
+                    failure(&error, arguments.scene.json);
+                    return Exit::Failed;
+                }
+            };
+            let mut written = results.write_with(&folder, parquet);
             if arguments.report {
                 let title = format!("Sweep of {}", arguments.scene.scene.display());
                 html::add(&arguments.scene, &title, &[("Results", results.report())], (&folder, &mut written));
@@ -102,23 +105,16 @@ fn refused(ranks: &dyn Ranks) -> Exit {
     Exit::Invalid
 }
 
-/// Adds `members.parquet`, if it is asked for.
+/// The bytes of `members.parquet`, if it is asked for.
 #[cfg(feature = "parquet")]
-fn add_parquet(
-    arguments: &SweepArguments,
-    results: &Results<'_>,
-    (folder, written): (&Folder, &mut Written),
-) -> Result<(), EnsembleError> {
-    if arguments.parquet {
-        written.add(folder, [("members.parquet", results.parquet()?)]);
-    }
-    Ok(())
+fn parquet(arguments: &SweepArguments, results: &Results<'_>) -> Result<Option<Vec<u8>>, EnsembleError> {
+    arguments.parquet.then(|| results.parquet()).transpose()
 }
 
 #[cfg(not(feature = "parquet"))]
 #[expect(clippy::unnecessary_wraps, reason = "as with the feature")]
-const fn add_parquet(_: &SweepArguments, _: &Results<'_>, _: (&Folder, &mut Written)) -> Result<(), EnsembleError> {
-    Ok(())
+const fn parquet(_: &SweepArguments, _: &Results<'_>) -> Result<Option<Vec<u8>>, EnsembleError> {
+    Ok(None)
 }
 
 /// The ensemble, the folder of process 0, and how to compute.

@@ -65,9 +65,12 @@ impl<'c> Crew<'c> {
 }
 
 pub(crate) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, EnsembleError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
-    pool.map_err(|error| EnsembleError::Argument {
-        argument: error.to_string(),
-        valid: "a number of threads that the machine starts",
-    })
+    let threads = threads.unwrap_or(0);
+    let refused = |argument| EnsembleError::Argument { argument, valid: "a number of threads that the machine starts" };
+    // Of more the pool would start fewer and say nothing.
+    if rayon::max_num_threads() < threads {
+        return Err(refused(format!("{threads} threads")));
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| refused(error.to_string()))
 }

@@ -164,6 +164,11 @@ impl Ensemble {
         .to_string()
     }
 
+    /// Whether a member may be one of this ensemble.
+    pub(crate) fn has(&self, member: &Member) -> bool {
+        member.member < self.members() && member.values.len() == self.columns.len()
+    }
+
     pub(crate) fn name(&self) -> &str {
         self.scene.name()
     }

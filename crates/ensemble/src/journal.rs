@@ -75,7 +75,8 @@ fn whole_lines(path: &Path, ensemble: &Ensemble) -> Result<(Vec<Member>, u64), E
     }
     let mut members = Vec::new();
     for (line, end) in lines {
-        let Ok(member) = serde_json::from_str::<Member>(&line) else { break };
+        // A line that was changed is as one that was never written.
+        let Some(member) = serde_json::from_str(&line).ok().filter(|member| ensemble.has(member)) else { break };
         members.push(member);
         length = end;
     }

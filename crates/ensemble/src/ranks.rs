@@ -52,7 +52,7 @@ impl Ranks for OneProcess {
 pub(crate) enum Request {
     /// The identity of its ensemble.
     Ready(String),
-    /// Why it cannot begin.
+    /// Why it cannot begin or cannot go on.
     Refused(String),
     /// Members that are finished, the number of those in work, and of those wanted besides.
     Finished { members: Vec<Member>, unfinished: u64, wanted: u64 },
@@ -76,20 +76,19 @@ pub(crate) fn say<T: Serialize>(ranks: &dyn Ranks, to: usize, message: &T) {
     ranks.send(to, &serde_json::to_vec(message).unwrap_or_default());
 }
 
-/// The next message, if there is one.
-pub(crate) fn heard<T: DeserializeOwned>(ranks: &dyn Ranks) -> Result<Option<(usize, T)>, EnsembleError> {
-    let Some((rank, message)) = ranks.receive() else { return Ok(None) };
+/// The next message, if there is one, with its sender; or why it is not understood.
+pub(crate) fn heard<T: DeserializeOwned>(ranks: &dyn Ranks) -> Option<(usize, Result<T, String>)> {
+    let (rank, message) = ranks.receive()?;
     let read = serde_json::from_slice(&message);
-    read.map(|message| Some((rank, message)))
-        .map_err(|error| EnsembleError::Process { rank, cause: format!("its message is not understood: {error}") })
+    Some((rank, read.map_err(|error| format!("its message is not understood: {error}"))))
 }
 
 /// Asks process 0 and waits for its answer.
 pub(crate) fn ask(ranks: &dyn Ranks, request: &Request) -> Result<Reply, EnsembleError> {
     say(ranks, 0, request);
     loop {
-        if let Some((_, reply)) = heard(ranks)? {
-            return Ok(reply);
+        if let Some((rank, reply)) = heard(ranks) {
+            return reply.map_err(|cause| EnsembleError::Process { rank, cause });
         }
         std::thread::sleep(PAUSE);
     }
@@ -122,11 +121,10 @@ pub fn agree(ranks: &dyn Ranks, prepared: Result<&Ensemble, String>) -> Result<(
     for _ in 1..ranks.count() {
         let (rank, cause) = loop {
             match heard(ranks) {
-                Ok(Some((rank, request))) => break (rank, objection(request, own.as_ref().ok())),
-                Ok(None) => std::thread::sleep(PAUSE),
+                Some((rank, Ok(request))) => break (rank, objection(request, own.as_ref().ok())),
                 // Another version, perhaps.
-                Err(EnsembleError::Process { rank, cause }) => break (rank, Some(cause)),
-                Err(error) => return Err(error),
+                Some((rank, Err(cause))) => break (rank, Some(cause)),
+                None => std::thread::sleep(PAUSE),
             }
         };
         refused = refused.or(cause.map(|cause| (rank, cause)));

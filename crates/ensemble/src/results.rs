@@ -193,8 +193,14 @@ impl<'e> Results<'e> {
     /// Writes the table, the summary and the figure.
     #[must_use]
     pub fn write(&self, folder: &Folder) -> Written {
-        let files = [("members.csv", self.table()), ("summary.json", self.summary()), ("members.svg", self.figure())];
-        Written::of(folder, files)
+        self.write_with(folder, [])
+    }
+
+    /// [`write`](Self::write) with other files in the same set: a folder with `summary.json` has them too.
+    #[must_use]
+    pub fn write_with<'n>(&self, folder: &Folder, others: impl IntoIterator<Item = (&'n str, Vec<u8>)>) -> Written {
+        let own = [("members.csv", self.table()), ("summary.json", self.summary()), ("members.svg", self.figure())];
+        Written::of(folder, own.map(|(name, text)| (name, text.into_bytes())).into_iter().chain(others))
     }
 
     /// The first quantities over the first value that is varied.

@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 use core::sync::atomic::AtomicBool;
 use core::time::Duration;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::time::Instant;
 
@@ -88,6 +88,8 @@ pub fn compute(
 
 /// [`compute`] on the processes of one run, each with its threads. All of them call it, after [`agree`](crate::agree).
 ///
+/// When a process cannot go on, all end, and process 0 has its error: [`EnsembleError::Process`].
+///
 /// Process 0 hands members out, receives their numbers and keeps the journal; only it uses the folder and the observer. So the
 /// machines need not share a folder, and the journal is that of one process: a killed run goes on with any number of processes.
 ///
@@ -116,7 +118,17 @@ pub fn compute_across(
     ranks: &dyn Ranks,
     mut observer: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Computed, EnsembleError> {
-    let pool = pool(options.threads)?;
+    let pool = match pool(options.threads) {
+        Ok(pool) => pool,
+        Err(error) => {
+            if ranks.rank() == 0 {
+                dismiss(ranks);
+            } else {
+                ask(ranks, &Request::Refused(error.to_string()))?;
+            }
+            return Err(error);
+        }
+    };
     let stop = AtomicBool::new(false);
     let crew = Crew::new(ensemble, &stop);
     if ranks.rank() != 0 {
@@ -128,7 +140,7 @@ pub fn compute_across(
     let (journal, done) = match journal {
         Ok(opened) => opened,
         Err(error) => {
-            dismiss(ranks)?;
+            dismiss(ranks);
             return Err(error);
         }
     };
@@ -141,12 +153,12 @@ pub fn compute_across(
         next: 0,
         kept: kept.len() as u64,
         computed: 0,
-        working: ranks.count() - 1,
+        working: (1..ranks.count()).collect(),
         stopped: false,
         failure: None,
     };
-    let ended = pool.in_place_scope(|scope| lead.run(ranks, crew, pool.current_num_threads(), scope, &mut observer));
-    ended.and(lead.failure.map_or(Ok(()), Err))?;
+    pool.in_place_scope(|scope| lead.run(ranks, crew, pool.current_num_threads(), scope, &mut observer));
+    lead.failure.map_or(Ok(()), Err)?;
     let interrupted = lead.computed < lead.left.len() as u64;
     Ok(Computed { computed: lead.computed, kept: lead.kept, interrupted })
 }
@@ -163,7 +175,7 @@ struct Lead {
     kept: u64,
     computed: u64,
     /// Other processes that have not ended.
-    working: usize,
+    working: BTreeSet<usize>,
     stopped: bool,
     failure: Option<EnsembleError>,
 }
@@ -176,21 +188,24 @@ impl Lead {
         threads: usize,
         scope: &rayon::Scope<'c>,
         observer: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<(), EnsembleError> {
+    ) {
         loop {
             while !self.stopped && crew.unfinished() < QUEUE * threads && self.next < self.left.len() {
                 crew.take(scope, self.left[self.next]);
                 self.next += 1;
             }
-            if crew.unfinished() == 0 && self.working == 0 {
-                return Ok(());
+            if crew.unfinished() == 0 && self.working.is_empty() {
+                return;
             }
             if let Some(member) = crew.finished(PAUSE) {
                 self.keep(&member, observer);
             }
-            while let Some((rank, request)) = heard(ranks)? {
-                let reply = self.answer(request, ranks.count(), observer);
-                self.working -= usize::from(matches!(reply, Reply::End));
+            while let Some((rank, request)) = heard(ranks) {
+                let request = request.unwrap_or_else(Request::Refused);
+                let reply = self.answer(rank, request, ranks.count(), observer);
+                if matches!(reply, Reply::End) {
+                    self.working.remove(&rank);
+                }
                 say(ranks, rank, &reply);
             }
             if self.stopped {
@@ -200,7 +215,7 @@ impl Lead {
     }
 
     fn keep(&mut self, member: &Member, observer: &mut dyn FnMut(f64) -> ControlFlow<()>) {
-        if self.failure.is_some() {
+        if matches!(self.failure, Some(EnsembleError::Journal { .. })) {
             return;
         }
         if let Err(error) = self.journal.add(member) {
@@ -214,8 +229,19 @@ impl Lead {
         }
     }
 
-    fn answer(&mut self, request: Request, count: usize, observer: &mut dyn FnMut(f64) -> ControlFlow<()>) -> Reply {
-        let Request::Finished { members, unfinished, wanted } = request else { return Reply::End };
+    /// A process that cannot go on ends the run: the members that are finished stay in the journal.
+    fn answer(
+        &mut self,
+        rank: usize,
+        request: Request,
+        count: usize,
+        observer: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Reply {
+        let (members, unfinished, wanted) = match request {
+            Request::Finished { members, unfinished, wanted } => (members, unfinished, wanted),
+            Request::Refused(cause) => return self.refuse(rank, cause),
+            Request::Ready(_) => return self.refuse(rank, "it begins while the others compute".to_owned()),
+        };
         for member in &members {
             self.keep(member, observer);
         }
@@ -232,21 +258,26 @@ impl Lead {
         self.next += taken.len();
         Reply::Take(taken)
     }
+
+    fn refuse(&mut self, rank: usize, cause: String) -> Reply {
+        self.failure.get_or_insert(EnsembleError::Process { rank, cause });
+        self.stopped = true;
+        Reply::End
+    }
 }
 
 /// Sends the other processes home.
-fn dismiss(ranks: &dyn Ranks) -> Result<(), EnsembleError> {
-    let mut working = ranks.count() - 1;
-    while 0 < working {
-        match heard::<Request>(ranks)? {
+fn dismiss(ranks: &dyn Ranks) {
+    let mut working: BTreeSet<usize> = (1..ranks.count()).collect();
+    while !working.is_empty() {
+        match heard::<Request>(ranks) {
             Some((rank, _)) => {
                 say(ranks, rank, &Reply::End);
-                working -= 1;
+                working.remove(&rank);
             }
             None => std::thread::sleep(PAUSE),
         }
     }
-    Ok(())
 }
 
 /// Another process: it computes what process 0 hands out.
@@ -264,7 +295,13 @@ fn follow<'c>(
         let wanted = (2 * (threads + members.len())).saturating_sub(crew.unfinished()) as u64;
         computed += members.len() as u64;
         let unfinished = crew.unfinished() as u64;
-        match ask(ranks, &Request::Finished { members: core::mem::take(&mut members), unfinished, wanted })? {
+        let finished = Request::Finished { members: core::mem::take(&mut members), unfinished, wanted };
+        let reply = ask(ranks, &finished).inspect_err(|error| {
+            crew.stop();
+            // Nobody answers this one where the run has ended.
+            say(ranks, 0, &Request::Refused(error.to_string()));
+        })?;
+        match reply {
             Reply::Take(taken) => taken.into_iter().for_each(|member| crew.take(scope, member)),
             Reply::Stop => {
                 crew.stop();
@@ -273,7 +310,11 @@ fn follow<'c>(
                 }
                 continue;
             }
-            Reply::End => return Ok(Computed { computed, kept: 0, interrupted: false }),
+            Reply::End => {
+                // Where process 0 has not understood something, members may still be in work.
+                crew.stop();
+                return Ok(Computed { computed, kept: 0, interrupted: false });
+            }
         }
         let begun = Instant::now();
         loop {

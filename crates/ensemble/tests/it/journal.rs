@@ -93,6 +93,57 @@ fn an_interrupted_ensemble_goes_on_and_does_nothing_twice() {
     assert_eq!(nothing.map(|found| (found.kept, found.computed)), Ok((40, 0)));
 }
 
+/// Lines that are JSON and yet no members of this ensemble: too few values, too many, and a member beyond the last.
+#[test]
+fn changed_lines_of_a_journal_are_computed_again() {
+    let ensemble = ensemble();
+    let (whole, changed) = (Folder::new("unchanged"), Folder::new("changed"));
+    run(&ensemble, &whole, Options::default().with_threads(1));
+    let expected = bytes(&ensemble, &whole);
+    let journal = "members-1-of-1.journal";
+    let text = std::fs::read_to_string(whole.path().join(journal)).unwrap_or_else(|error| panic!("{error}"));
+    let values = format!("[{}]", vec!["1.0"; ensemble.columns().len()].join(","));
+    let lines: Vec<&str> = text.lines().collect();
+    for line in [
+        "{\"member\":3,\"values\":[]}".to_owned(),
+        "{\"member\":3,\"values\":[1.0]}".to_owned(),
+        format!("{{\"member\":3,\"values\":{}}}", values.replacen('[', "[1.0,", 1)),
+        format!("{{\"member\":40,\"values\":{values}}}"),
+        format!("{{\"member\":{},\"values\":{values}}}", u64::MAX),
+    ] {
+        let damaged = [&lines[..5], &[line.as_str()], &lines[6..]].concat().join("\n") + "\n";
+        std::fs::write(changed.path().join(journal), damaged).unwrap_or_else(|error| panic!("{error}"));
+        let found = Results::collect(&ensemble, changed.path());
+        assert!(matches!(found, Err(EnsembleError::Missing { missing: 36, members: 40, .. })), "{line}: {found:?}");
+        let again = compute(&ensemble, changed.path(), Options::default().with_resume(), |_| ControlFlow::Continue(()));
+        assert_eq!(again.map(|found| (found.kept, found.computed)), Ok((4, 36)), "{line}");
+        assert_eq!(bytes(&ensemble, &changed), expected, "{line}");
+    }
+    // A whole set of members and one beyond.
+    let beyond = format!("{text}{{\"member\":40,\"values\":{values}}}\n");
+    std::fs::write(changed.path().join(journal), beyond).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(bytes(&ensemble, &changed), expected);
+}
+
+#[test]
+fn other_files_are_written_in_the_set_of_the_results() {
+    let ensemble = ensemble();
+    let folder = Folder::new("set");
+    run(&ensemble, &folder, Options::default());
+    let results = Results::collect(&ensemble, folder.path()).unwrap_or_else(|error| panic!("{error}"));
+    let set = piola_charts::Folder::prepare(folder.path()).unwrap_or_else(|error| panic!("{error}"));
+    let names = |written: piola_charts::Written| -> Vec<String> {
+        assert!(written.failures.is_empty(), "{:?}", written.failures);
+        let names = written.files.iter().filter_map(|path| path.file_name());
+        names.map(|name| name.to_string_lossy().into_owned()).collect()
+    };
+    let with = names(results.write_with(&set, [("members.parquet", vec![0, 255])]));
+    assert_eq!(with, ["members.csv", "summary.json", "members.svg", "members.parquet"]);
+    assert_eq!(std::fs::read(folder.path().join("members.parquet")).ok(), Some(vec![0, 255]));
+    assert_eq!(names(results.write(&set)), with[..3]);
+    assert!(!folder.path().join("members.parquet").exists());
+}
+
 #[test]
 fn a_journal_of_another_ensemble_is_refused() {
     let folder = Folder::new("other");

@@ -22,10 +22,10 @@
 //! are given. Constraints that contradict each other are refused by name.
 
 mod acceleration;
-mod aside;
 mod assembly;
 mod branch;
 mod evaluation;
+mod interpolation;
 mod motion;
 mod rattle;
 mod redundancy;

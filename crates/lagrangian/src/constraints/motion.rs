@@ -42,9 +42,9 @@ const ACCEPTED: u32 = 40;
 /// position. Between two runs of one motion stands [`restart`](Self::restart).
 ///
 /// # Accuracy
-/// At the distance x from a singular position rounding moves a state that is brought onto the branch by ε/x². Runs through
-/// such positions take tolerances down to about 1e-10: there, nearer than some thousandths of the usual share, accelerations are
-/// interpolated from both sides. A run with a tighter one may end at such a position with
+/// At the distance x from a singular position rounding moves a state that is brought onto the branch by ε/x². Runs pass such
+/// positions at tolerances down to about 1e-10. Where the share is below 3e-3 of the usual one, accelerations are interpolated from
+/// states on both sides. A run with a tighter tolerance may end at such a position with
 /// [`ConstraintError::Singular`](crate::ConstraintError::Singular).
 ///
 /// # Example
@@ -116,8 +116,8 @@ impl<S, P, F, C> ConstrainedMotion<'_, S, P, F, C> {
         self.passages.clear();
     }
 
-    /// The least part of an independent constraint's gradient that is its own, of the largest so far: zero at a singular
-    /// position. And the constraint.
+    /// The least share and its constraint. The share of an independent constraint is the part of its gradient that is its own, over
+    /// the largest gradient so far: zero at a singular position.
     fn least_share(&self) -> (f64, usize) {
         let independence = &self.work.independence;
         let mut least = (1.0, self.weakest);
@@ -130,12 +130,12 @@ impl<S, P, F, C> ConstrainedMotion<'_, S, P, F, C> {
         least
     }
 
-    /// The same at any state, of the usual share.
-    pub(super) fn nearness(&self) -> f64 {
+    /// The least share over the usual share: zero at a singular position.
+    pub(super) fn relative_share(&self) -> f64 {
         self.least_share().0 / self.usual_share
     }
 
-    /// The same at a state on the branch, which may be the usual one.
+    /// The relative share at a state on the branch, whose least share may become the usual one.
     fn share(&mut self) -> f64 {
         for (largest, &size) in self.largest.iter_mut().zip(&self.work.independence.sizes) {
             *largest = largest.max(size);

@@ -20,12 +20,12 @@ const ASIDE: [f64; 3] = [1e-2, 1.5e-2, 2.2e-2];
 const WEIGHTS: [f64; 3] = [15.0 / 20.0, -6.0 / 20.0, 1.0 / 20.0];
 
 impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> ConstrainedMotion<'_, S, P, F, C> {
-    /// Whether a state lies so close by.
+    /// Whether the relative share of a state is below [`WITHIN`].
     pub(super) fn is_within(&mut self, t: f64, y: &[f64]) -> Result<bool, LagrangianError> {
         let (q, v) = y.split_at(self.coordinates);
         self.system.form(&mut self.work, q, v, t)?;
         self.system.factor(&mut self.work, true)?;
-        Ok(self.work.independence.follow().is_err() || self.nearness() < WITHIN)
+        Ok(self.work.independence.follow().is_err() || self.relative_share() < WITHIN)
     }
 
     /// The interpolated acceleration at a state; false where the motion stays so close by that no such states are found.
@@ -37,7 +37,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> ConstrainedMotion<'_
             return false;
         }
         for _ in 0..12 {
-            match self.accelerate_at(t, y, step).map(|()| self.nearness()) {
+            match self.accelerate_at(t, y, step).map(|()| self.relative_share()) {
                 Ok(share) if least <= share && share <= largest => {
                     return self.sum(t, y, step, acceleration).is_ok();
                 }
