@@ -25,7 +25,7 @@ pub(crate) enum Command {
     /// Run a scene; write its summary, tables and figures.
     Run(RunArguments),
     /// Show the plan of a run: its method and step, computed and skipped quantities.
-    Plan(SceneArguments),
+    Plan(PlanArguments),
     /// Look for mistakes in a scene and show all of them.
     Check(SceneArguments),
     /// Run a scene many times on all cores, with other values or random ones; killed, it goes on with --resume.
@@ -72,6 +72,15 @@ pub(crate) struct SceneArguments {
     /// Set a value of the scene, as time.end='10 d' or body.earth.mass=6e24.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub(crate) settings: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PlanArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Show instead what the plan says of a term, and the keys and words of scenes that have it for a name.
+    #[arg(long, value_name = "TERM")]
+    pub(crate) explain: Option<String>,
 }
 
 #[derive(Debug, Args)]

@@ -15,7 +15,8 @@ use piola_scene::run::{self, Checkpoints, MotionCheckpoint, Outcome, Prediction}
 use piola_scene::studies::{self, StudyPlan};
 use piola_scene::{Plan, Scene, SceneError, SceneFile, Study, schema};
 
-use crate::arguments::{RunArguments, SceneArguments, SchemaArguments};
+use crate::arguments::{PlanArguments, RunArguments, SceneArguments, SchemaArguments};
+use crate::explain::Explanation;
 use crate::interrupt::Interrupt;
 use crate::progress::{ProgressLine, STRIDE};
 use crate::{Exit, html, report};
@@ -215,12 +216,23 @@ fn plan_of_motion(scene: &Scene, json: bool) -> Exit {
     }
 }
 
-pub(crate) fn plan(arguments: &SceneArguments) -> Exit {
-    match load(arguments) {
-        Ok(SceneFile::Motion(scene)) => plan_of_motion(&scene, arguments.json),
-        Ok(SceneFile::Study(study)) => show_plan(&StudyPlan::of(&study), arguments.json),
-        Err(error) => invalid(&error, arguments.json),
+pub(crate) fn plan(arguments: &PlanArguments) -> Exit {
+    let json = arguments.scene.json;
+    match (load(&arguments.scene), &arguments.explain) {
+        (Ok(file), Some(term)) => explain(&file, term, json),
+        (Ok(SceneFile::Motion(scene)), None) => plan_of_motion(&scene, json),
+        (Ok(SceneFile::Study(study)), None) => show_plan(&StudyPlan::of(&study), json),
+        (Err(error), _) => invalid(&error, json),
     }
+}
+
+fn explain(file: &SceneFile, term: &str, json: bool) -> Exit {
+    match Explanation::of(file, term) {
+        Ok(explanation) if json => print_json(&explanation),
+        Ok(explanation) => print(&explanation.to_string()),
+        Err(why) => return refuse(&why, json),
+    }
+    Exit::Done
 }
 
 fn show_plan(plan: &(impl serde::Serialize + core::fmt::Display), json: bool) -> Exit {

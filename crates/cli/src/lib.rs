@@ -8,6 +8,7 @@ mod absent;
 mod arguments;
 mod commands;
 mod comparison;
+mod explain;
 mod fit_options;
 mod fits;
 mod flows;

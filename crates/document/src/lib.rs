@@ -7,6 +7,8 @@ mod document;
 #[cfg(feature = "files")]
 mod error;
 #[cfg(feature = "files")]
+mod include;
+#[cfg(feature = "files")]
 mod mistake;
 #[cfg(feature = "files")]
 mod node;

@@ -17,7 +17,7 @@ pub struct Mistake {
     pub valid: Option<String>,
     /// A second place that belongs to it, with a word on why.
     pub see: Option<(Place, String)>,
-    /// Whether the text could not be parsed here.
+    /// Whether what stands here could not be read: a text that is no TOML, or files that cannot be included.
     pub syntax: bool,
 }
 

@@ -48,6 +48,8 @@ pub struct Field {
 pub enum FieldValue {
     /// Of a name, a text, a path or a choice.
     Text(String),
+    /// Of a list of texts.
+    Texts(Vec<String>),
     /// Of a flag.
     Flag(bool),
     /// Of a count.
@@ -113,6 +115,14 @@ impl Record {
         match &self.fields.get(key)?.value {
             FieldValue::Text(text) => Some(text),
             _ => None,
+        }
+    }
+    /// The texts of a key; none where it is absent.
+    #[must_use]
+    pub fn texts(&self, key: &str) -> &[String] {
+        match self.fields.get(key).map(|field| &field.value) {
+            Some(FieldValue::Texts(texts)) => texts,
+            _ => &[],
         }
     }
     /// The flag of a key.

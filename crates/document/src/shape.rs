@@ -1,9 +1,10 @@
 //! Checks the tree against the declared keys and makes records of it.
 
+use crate::include::FORMAT;
 use crate::record::{Field, FieldValue, Parameter};
 use crate::schema::{Absent, Key, Kind, Range, Table};
 use crate::units::{Dimension, Quantity, UnitError, VectorQuantity};
-use crate::{Document, Entry, Mistake, Node, Place, Record, Value, words};
+use crate::{Document, Entry, Mistake, Node, Place, Record, Source, Value, words};
 
 impl Document {
     /// The values that the keys of `root` declare, and every mistake: those of syntax and those against the keys.
@@ -18,9 +19,20 @@ impl Document {
 /// The record of a whole document, and every mistake in its shape.
 fn records(document: &Document, root: &'static Table) -> (Record, Vec<Mistake>) {
     let mut mistakes = document.mistakes().to_vec();
-    let damaged = mistakes.iter().any(|mistake| mistake.syntax);
-    let mut reader = Reader { root, mistakes: Vec::new(), damaged };
+    let newer = formats(document, root);
+    let damaged = !newer.is_empty() || mistakes.iter().any(|mistake| mistake.syntax);
+    let mut reader = Reader { root, sources: document.sources(), mistakes: Vec::new(), damaged };
     let record = reader.table(root, document.root(), false);
+    if let Some(key) = root.key(FORMAT) {
+        for node in document.formats() {
+            reader.value(key, node);
+        }
+    }
+    if !newer.is_empty() {
+        // What else is wrong here may be right in the newer format.
+        mistakes.extend(newer);
+        return (record, mistakes);
+    }
     // What a syntax error damaged is not reported a second time as a wrong value.
     let lines: Vec<(usize, usize)> =
         mistakes.iter().filter(|mistake| mistake.syntax).map(|mistake| line_of(document, &mistake.place)).collect();
@@ -29,19 +41,35 @@ fn records(document: &Document, root: &'static Table) -> (Record, Vec<Mistake>) 
     (record, mistakes)
 }
 
+/// The versions of the format, of the document and of the files that it includes, which are newer than the declared one.
+fn formats(document: &Document, root: &Table) -> Vec<Mistake> {
+    let Some(Key { kind: Kind::Count { most, .. }, .. }) = root.key(FORMAT) else { return Vec::new() };
+    let all = document.root().get(FORMAT).into_iter().chain(document.formats());
+    let newer =
+        all.filter(|node| matches!(node.value, Value::Number { value, whole: true } if f64::from(*most) < value));
+    newer
+        .map(|node| {
+            let found = format!("this program reads format {most}: a newer Piola is needed");
+            Mistake { syntax: true, ..Mistake::new(node.place.clone(), found) }
+        })
+        .collect()
+}
+
 fn line_of(document: &Document, place: &Place) -> (usize, usize) {
     (place.source, document.sources().get(place.source).map_or(0, |source| source.position(place.span.start).0))
 }
 
-struct Reader {
+struct Reader<'a> {
     /// The table of the whole document.
     root: &'static Table,
+    /// The texts of the document.
+    sources: &'a [Source],
     mistakes: Vec<Mistake>,
     /// Whether parts of the text could not be parsed: then nothing is reported as missing.
     damaged: bool,
 }
 
-impl Reader {
+impl Reader<'_> {
     fn table(&mut self, table: &'static Table, node: &Node, inner: bool) -> Record {
         let mut record = Record { place: node.place.clone(), ..Record::default() };
         let kind = node.get("type").and_then(|node| match &node.value {
@@ -173,6 +201,13 @@ impl Reader {
                 Some(FieldValue::Parameters(parameters.into_iter().collect::<Option<_>>()?))
             }
             _ => match value(&key.kind, node) {
+                // A path of an included file is relative to that file.
+                Ok(FieldValue::Text(text)) if matches!(key.kind, Kind::Path) => {
+                    Some(FieldValue::Text(match self.sources.get(node.place.source) {
+                        Some(source) => source.path(text),
+                        None => text,
+                    }))
+                }
                 Ok(value) => Some(value),
                 Err(wrong) => {
                     self.mistakes.push(
@@ -225,6 +260,16 @@ fn value(kind: &Kind, node: &Node) -> Result<FieldValue, Wrong> {
         (Kind::Name, Value::Text(text)) if is_name(text) => Ok(FieldValue::Text(text.clone())),
         (Kind::Text, Value::Text(text)) => Ok(FieldValue::Text(text.clone())),
         (Kind::Path, Value::Text(text)) if !text.trim().is_empty() => Ok(FieldValue::Text(text.clone())),
+        (Kind::Texts, Value::List(items)) => {
+            let texts = items.iter().map(|item| match &item.value {
+                Value::Text(text) => Ok(text.clone()),
+                other => Err(Wrong {
+                    place: Some(item.place.clone()),
+                    ..Wrong::found(format!("a list with {}", other.describe()))
+                }),
+            });
+            Ok(FieldValue::Texts(texts.collect::<Result<_, _>>()?))
+        }
         (Kind::Flag, Value::Flag(flag)) => Ok(FieldValue::Flag(*flag)),
         (Kind::Choice(choices), Value::Text(text)) => {
             if choices.iter().any(|word| word.name == text) {

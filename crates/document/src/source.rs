@@ -3,7 +3,7 @@
 use core::ops::Range;
 use std::fs::File;
 use std::io::Read as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::DocumentError;
 
@@ -21,6 +21,8 @@ pub struct Source {
     pub text: String,
     /// Where each line begins, in bytes.
     lines: Vec<usize>,
+    /// The folder that paths in the text are relative to, as seen from that of the document.
+    folder: PathBuf,
 }
 
 /// A stretch of one source.
@@ -37,7 +39,18 @@ impl Source {
     #[must_use]
     pub fn new(name: &str, text: &str) -> Self {
         let starts = text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(at, _)| at + 1);
-        Self { name: name.to_string(), lines: core::iter::once(0).chain(starts).collect(), text: text.to_string() }
+        let lines = core::iter::once(0).chain(starts).collect();
+        Self { name: name.to_string(), lines, text: text.to_string(), folder: PathBuf::new() }
+    }
+
+    /// The source with its folder, as seen from that of the document.
+    pub(crate) fn in_folder(self, folder: PathBuf) -> Self {
+        Self { folder, ..self }
+    }
+
+    /// A path of this text, as seen from the folder of the document.
+    pub(crate) fn path(&self, text: String) -> String {
+        if self.folder.as_os_str().is_empty() { text } else { self.folder.join(text).display().to_string() }
     }
 
     /// Line and column of a byte, both from 1; the column counts characters.

@@ -38,7 +38,7 @@ table! {
     /// `tolerance`, 1e-9 when absent: relative, and absolute in m, rad, m/s and rad/s. Limits of joints are not enforced: the
     /// summary names the joints that leave them. Motors of the file are not driven.
     pub(super) static ROBOT = "robot" {
-        /// The URDF or MJCF file, relative to the scene. MJCF is what has `mujoco` as its first element.
+        /// The URDF or MJCF file, relative to the file that names it. MJCF is what has `mujoco` as its first element.
         file: Path, Required;
         /// How the root of a URDF file stands. An MJCF file says it itself.
         base: Kind::Choice(&BASES), Default("\"fixed\"");

@@ -4,7 +4,7 @@ use piola_document::table;
 use piola_document::units::Dimension as D;
 
 use super::Absent::{Default, Optional, Required};
-use super::Kind::{Flag, Name, Path, Text};
+use super::Kind::{Flag, Name, Path, Text, Texts};
 use super::Range::{Any, Fraction, NotNegative, Positive};
 use super::{Kind, SceneKind, Word, boxes, forces, phase, quantity, robot, solids, studies, word};
 
@@ -42,6 +42,10 @@ table! {
     /// `[hamiltonian]` and `[robot]` move in time and need `[time]`; all others are studies without it. A `[box]` has its times in
     /// its own table.
     pub static SCENE = "scene" {
+        /// Version of the format that the file is written in.
+        format: Kind::Count { least: 1, most: 1 }, Default("1");
+        /// Files with parts of the scene, relative to the file that names them; its own values hold over theirs.
+        include: Texts, Optional;
         /// Name of the scene, of its output folder and in its results. The file's name when absent.
         name: Name, Optional;
         /// Title of the figures.

@@ -2,7 +2,9 @@
 
 mod boxes;
 mod end_to_end;
+mod explain;
 mod hostile;
+mod includes;
 mod intervals;
 mod measurements;
 mod register;

@@ -86,6 +86,7 @@ fn kind(kind: &Kind) -> Map<String, Value> {
     let schema = match kind {
         Kind::Name => json!({ "type": "string", "pattern": "^[\\p{L}\\p{N}_][\\p{L}\\p{N}_ -]*$" }),
         Kind::Text | Kind::Path => json!({ "type": "string" }),
+        Kind::Texts => json!({ "type": "array", "items": { "type": "string" } }),
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::Count { least, most } => json!({ "type": "integer", "minimum": least, "maximum": most }),
         Kind::Quantity(dimension, range) => {

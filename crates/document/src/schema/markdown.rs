@@ -49,6 +49,7 @@ fn value(kind: &Kind) -> String {
     match kind {
         Kind::Name => "name".to_string(),
         Kind::Text => "text".to_string(),
+        Kind::Texts => "list of texts".to_string(),
         Kind::Path => "path".to_string(),
         Kind::Flag => "true or false".to_string(),
         Kind::Count { least, most } => format!("{least} … {most}"),

@@ -84,7 +84,9 @@ pub enum Kind {
     Name,
     /// Any text.
     Text,
-    /// The path of a file, relative to the document.
+    /// A list of texts.
+    Texts,
+    /// The path of a file, relative to the file that names it.
     Path,
     /// `true` or `false`.
     Flag,
@@ -173,7 +175,8 @@ impl Kind {
         match self {
             Self::Name => "a name of letters, digits, `_` and `-`".to_string(),
             Self::Text => "a text".to_string(),
-            Self::Path => "the path of a file, relative to the scene".to_string(),
+            Self::Texts => "a list of texts".to_string(),
+            Self::Path => "the path of a file, relative to the file that names it".to_string(),
             Self::Flag => "true or false".to_string(),
             Self::Count { least, most } => format!("a whole number from {least} to {most}"),
             Self::Quantity(dimension, range) if *dimension == Dimension::NONE => format!("a number{}", range.words()),
