@@ -6,7 +6,9 @@ use piola_spectral::{BoxSolver, ModalMotion, ModalSeries, SpectralError, Viscous
 use serde::{Deserialize, Serialize};
 
 use super::form::indices;
-use super::{BoxFields, BoxStudy, FlowHistory, FlowInstant, FlowTask, MotionHistory, MotionInstant, MotionTask, Task};
+use super::instant::{FlowInstant, MotionInstant};
+use super::{BoxFields, BoxStudy, FlowTask, MotionTask, Task};
+use crate::StudyCheckpointKeeper;
 
 /// The state of an interrupted motion or flow on a box, with the instants recorded so far.
 ///
@@ -15,6 +17,9 @@ use super::{BoxFields, BoxStudy, FlowHistory, FlowInstant, FlowTask, MotionHisto
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct BoxCheckpoint(Sealed<Body>);
+
+/// Where the checkpoints of a run go.
+pub(super) type Keeper<'k> = Option<&'k mut dyn StudyCheckpointKeeper<BoxCheckpoint>>;
 
 /// The state from which a run continues.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -114,64 +119,69 @@ fn series<const D: usize>(
     Ok(series)
 }
 
+/// Displacement and velocity, time, number of steps, instants.
+type MotionState<const D: usize> = ([ModalSeries<D>; 2], f64, usize, Vec<MotionInstant<D>>);
+/// The flow, its time, its step, instants.
+type FlowState<const D: usize> = (ViscousFlow<f64, D>, f64, f64, Vec<FlowInstant>);
+
 impl MotionBody {
-    pub(super) fn of<const D: usize>(motion: &ModalMotion<D>, found: &MotionHistory<D>, time: f64) -> Self {
+    pub(super) fn of<const D: usize>(
+        motion: &ModalMotion<D>,
+        (time, steps): (f64, usize),
+        instants: &[MotionInstant<D>],
+    ) -> Self {
         let row = |instant: &MotionInstant<D>| {
             let numbers = [instant.time, instant.kinetic_energy, instant.elastic_energy];
             numbers.into_iter().chain(instant.displacements.iter().flatten().copied()).collect()
         };
         Self {
             time,
-            steps: found.steps,
+            steps,
             displacement: amplitudes(motion.displacement()),
             velocity: amplitudes(motion.velocity()),
-            instants: found.instants.iter().map(row).collect(),
+            instants: instants.iter().map(row).collect(),
         }
     }
 
-    /// Displacement, velocity and time; what was recorded goes to the history.
+    /// Displacement and velocity, time, number of steps, instants.
     pub(super) fn restore<const D: usize>(
         self,
         fields: &BoxFields<D>,
         task: &MotionTask<D>,
-        found: &mut MotionHistory<D>,
-    ) -> Result<([ModalSeries<D>; 2], f64), SpectralError> {
-        found.steps = self.steps;
+    ) -> Result<MotionState<D>, SpectralError> {
         let instant = |row: &Vec<f64>| MotionInstant {
             time: row.first().copied().unwrap_or(f64::NAN),
             kinetic_energy: row.get(1).copied().unwrap_or(f64::NAN),
             elastic_energy: row.get(2).copied().unwrap_or(f64::NAN),
             displacements: row.get(3..).unwrap_or_default().chunks(D).map(components).collect(),
         };
-        found.instants = self.instants.iter().map(instant).collect();
+        let instants = self.instants.iter().map(instant).collect();
         let state = [series(fields, task.modes, &self.displacement)?, series(fields, task.modes, &self.velocity)?];
-        Ok((state, self.time))
+        Ok((state, self.time, self.steps, instants))
     }
 }
 
 impl FlowBody {
     pub(super) fn of<const D: usize>(
         flow: &ViscousFlow<f64, D>,
-        found: &FlowHistory<D>,
         (time, step): (f64, f64),
+        instants: &[FlowInstant],
     ) -> Self {
         let pieces = flow.pieces().map(|(lists, least)| (lists.map(<[f64]>::to_vec).to_vec(), least));
-        Self { time, step, pieces: pieces.collect(), instants: found.instants.clone() }
+        Self { time, step, pieces: pieces.collect(), instants: instants.to_vec() }
     }
 
-    /// The flow, its time and its step; what was recorded goes to the history.
+    /// The flow, its time, its step, instants.
     pub(super) fn restore<const D: usize>(
         self,
         solver: BoxSolver<f64, D>,
         task: &FlowTask<D>,
-        found: &mut FlowHistory<D>,
-    ) -> Result<(ViscousFlow<f64, D>, f64, f64), SpectralError> {
-        found.instants = self.instants;
+    ) -> Result<FlowState<D>, SpectralError> {
         let pieces = self.pieces.into_iter().map(|(mut lists, least)| {
             lists.resize(D, Vec::new());
             let mut lists = lists.into_iter();
             (core::array::from_fn(|_| lists.next().unwrap_or_default()), least)
         });
-        Ok((ViscousFlow::from_pieces(solver, task.least_jacobian, pieces)?, self.time, self.step))
+        Ok((ViscousFlow::from_pieces(solver, task.least_jacobian, pieces)?, self.time, self.step, self.instants))
     }
 }

@@ -1,12 +1,10 @@
 //! A creeping flow and the map of its particles.
 
-use serde::{Deserialize, Serialize};
-
 use piola_spectral::{BoxGrid, BoxOperator, BoxSolver, FlowReport, SpectralError, ViscousFlow};
 
-use super::checkpoint::{Body, BoxCheckpoint, FlowBody};
+use super::checkpoint::{Body, BoxCheckpoint, FlowBody, Keeper};
+use super::instant::FlowInstant;
 use super::map::{middle_height, points_with_stride};
-use super::run::Keeper;
 use super::statics::solve_for_loads;
 use super::{BoxFields, FlowTask, MOST_BYTES, MOST_STEPS, Probe};
 use crate::{Observer, PlaneSamples};
@@ -44,24 +42,6 @@ pub struct FlowHistory<const D: usize> {
     pub coordinates: Option<[PlaneSamples; 2]>,
 }
 
-/// A flow after a step.
-///
-/// # Example
-/// See [`BoxStudy`](super::BoxStudy).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct FlowInstant {
-    /// The time, s.
-    pub time: f64,
-    /// The least det(1 − ∇u) of the displacement since the last regridding.
-    pub least_jacobian: f64,
-    /// A lower bound of the Jacobian of the whole map: the product of the least ones of its pieces.
-    pub certified_jacobian: f64,
-    /// Spacings that the fastest particle crossed in the step.
-    pub courant_number: f64,
-    /// How often the displacement has been put away.
-    pub regriddings: usize,
-}
-
 impl<const D: usize> FlowHistory<D> {
     pub(super) fn of(task: &FlowTask<D>) -> Self {
         Self {
@@ -90,7 +70,11 @@ impl<const D: usize> FlowHistory<D> {
         }
         (self.velocity, _) = solve_for_loads(fields, &mut solver, task.modes.is_some()).map_err(words)?;
         let (mut flow, now, step) = match from {
-            Some(body) => body.restore(solver, task, self).map_err(words)?,
+            Some(body) => {
+                let (flow, now, step);
+                (flow, now, step, self.instants) = body.restore(solver, task).map_err(words)?;
+                (flow, now, step)
+            }
             None => (ViscousFlow::new(solver, task.least_jacobian).map_err(words)?, 0.0, self.first_step(task)?),
         };
         let advanced = self.advance(&mut flow, (fields, task), (now, step), keeper, observer);
@@ -131,7 +115,7 @@ impl<const D: usize> FlowHistory<D> {
             if let Some(keeper) = &mut keeper
                 && (stopped || keeper.is_due())
             {
-                keeper.keep(&BoxCheckpoint::new(fields, Body::Flow(FlowBody::of(flow, self, (now, step)))));
+                keeper.keep(&BoxCheckpoint::new(fields, Body::Flow(FlowBody::of(flow, (now, step), &self.instants))));
             }
             if stopped {
                 return Ok(task.duration <= now);

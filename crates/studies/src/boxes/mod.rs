@@ -3,6 +3,7 @@
 mod checkpoint;
 mod flow;
 mod form;
+mod instant;
 mod load;
 pub(crate) mod map;
 mod motion;
@@ -10,9 +11,10 @@ mod run;
 mod statics;
 
 pub use checkpoint::BoxCheckpoint;
-pub use flow::{FlowHistory, FlowInstant};
+pub use flow::FlowHistory;
 pub use form::{Form, Load, Start};
-pub use motion::{MotionHistory, MotionInstant};
+pub use instant::{FlowInstant, MotionInstant};
+pub use motion::MotionHistory;
 pub use run::{BoxFindings, Found};
 pub use statics::StaticField;
 

@@ -2,9 +2,9 @@
 
 use piola_spectral::{BoxOperator, ModalMotion, SpectralError};
 
-use super::checkpoint::{Body, BoxCheckpoint, MotionBody};
+use super::checkpoint::{Body, BoxCheckpoint, Keeper, MotionBody};
+use super::instant::MotionInstant;
 use super::load::Forces;
-use super::run::Keeper;
 use super::statics::{finite, series_of};
 use super::{BoxFields, Form, MOST_STEPS, MotionTask, Probe};
 use crate::Observer;
@@ -23,30 +23,6 @@ pub struct MotionHistory<const D: usize> {
     pub steps: usize,
     /// Whether neither drag nor loads change the energy.
     pub is_conservative: bool,
-}
-
-/// An instant of a motion.
-///
-/// # Example
-/// See [`BoxStudy::run_with_checkpoints`](super::BoxStudy::run_with_checkpoints).
-#[derive(Debug, Clone)]
-pub struct MotionInstant<const D: usize> {
-    /// The time, s.
-    pub time: f64,
-    /// ½∫ρ v² dV, J (in a rectangle: J/m).
-    pub kinetic_energy: f64,
-    /// ½∫ ε:σ dV, J (in a rectangle: J/m).
-    pub elastic_energy: f64,
-    /// The displacement at the probes, m.
-    pub displacements: Vec<[f64; D]>,
-}
-
-impl<const D: usize> MotionInstant<D> {
-    /// Kinetic and elastic energy together, J (in a rectangle: J/m).
-    #[must_use]
-    pub fn energy(&self) -> f64 {
-        self.kinetic_energy + self.elastic_energy
-    }
 }
 
 impl<const D: usize> MotionTask<D> {
@@ -98,7 +74,11 @@ impl<const D: usize> MotionHistory<D> {
         }
         let is_new = from.is_none();
         let ([displacement, velocity], mut now) = match from {
-            Some(body) => body.restore(fields, task, self)?,
+            Some(body) => {
+                let (state, time);
+                (state, time, self.steps, self.instants) = body.restore(fields, task)?;
+                (state, time)
+            }
             None => {
                 ([series_of(fields, &forms(false), task.modes)?, series_of(fields, &forms(true), task.modes)?], 0.0)
             }
@@ -122,7 +102,10 @@ impl<const D: usize> MotionHistory<D> {
             if let Some(keeper) = &mut keeper
                 && (stopped || keeper.is_due())
             {
-                keeper.keep(&BoxCheckpoint::new(fields, Body::Motion(MotionBody::of(&motion, self, now))));
+                keeper.keep(&BoxCheckpoint::new(
+                    fields,
+                    Body::Motion(MotionBody::of(&motion, (now, self.steps), &self.instants)),
+                ));
             }
             if stopped {
                 return Ok(task.duration <= now);

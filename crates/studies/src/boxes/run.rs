@@ -1,6 +1,6 @@
 //! Runs a study of fields on a box, whatever its dimension.
 
-use super::checkpoint::{Body, BoxCheckpoint};
+use super::checkpoint::{Body, BoxCheckpoint, Keeper};
 use super::flow::FlowHistory;
 use super::motion::MotionHistory;
 use super::statics::StaticField;
@@ -33,9 +33,6 @@ pub enum Found<const D: usize> {
     /// A creeping flow.
     Flow(FlowHistory<D>),
 }
-
-/// Where the checkpoints of a run go.
-pub(super) type Keeper<'k> = Option<&'k mut dyn StudyCheckpointKeeper<BoxCheckpoint>>;
 
 impl BoxStudy {
     /// Runs the study: the results so far and how it ended. The observer gets the finished part, from 0 to 1, and may stop it.
