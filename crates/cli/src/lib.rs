@@ -1,6 +1,6 @@
 //! The program `piola`.
 //!
-//! Results go to standard output; progress, notes and errors to standard error. Exit codes are those of [`Exit`].
+//! Results go to standard output; progress, notes and errors to standard error. Exit codes: 0 done, 1 failed or interrupted, 2 not valid.
 #![forbid(unsafe_code)]
 
 #[cfg(not(all(feature = "nonlinear", feature = "register", feature = "specimens")))]
