@@ -64,7 +64,7 @@ impl Explanation {
     }
 }
 
-/// The method, then what is computed and what is skipped.
+/// The lines of a plan: its method, its computed items, its skipped items.
 fn lines(file: &SceneFile) -> Vec<Line> {
     let (method, reason, computed, skipped) = match file {
         SceneFile::Motion(scene) => {
@@ -115,8 +115,8 @@ fn nothing(term: &str, plain: &str, names: &BTreeSet<&str>) -> String {
     let what = format!("neither the plan nor a key of scenes has `{shown}`");
     let with = |name: &&&str| !plain.is_empty() && name.contains(plain);
     let mut near: Vec<&str> = words::nearest(plain, names.iter().copied()).into_iter().collect();
-    near.extend(names.iter().filter(with));
-    near.dedup();
+    let nearest = near.first().copied();
+    near.extend(names.iter().filter(with).filter(|name| Some(**name) != nearest));
     near.truncate(HINTS);
     if near.is_empty() {
         format!("{what}; `piola schema --markdown` prints all keys")

@@ -17,7 +17,7 @@ pub struct Mistake {
     pub valid: Option<String>,
     /// A second place that belongs to it, with a word on why.
     pub see: Option<(Place, String)>,
-    /// Whether what stands here could not be read: a text that is no TOML, or files that cannot be included.
+    /// Whether the text at this place could not be read: it is not TOML, or it names files that cannot be included.
     pub syntax: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Processes of one run, as MPI has them, and what they say to each other before they begin.
+//! The processes of one run, as MPI starts them, and their messages: to agree on the sweep, to share out members.
 
 use core::time::Duration;
 
@@ -63,7 +63,7 @@ pub(crate) enum Request {
 pub(crate) enum Reply {
     /// Members to compute; perhaps none now.
     Take(Vec<u64>),
-    /// Finish at once and say what is finished.
+    /// Stop, and send the members that are finished.
     Stop,
     /// There is nothing more to do.
     End,

@@ -10,7 +10,7 @@ fn chromium() -> Option<&'static str> {
     ["chromium", "chromium-browser", "google-chrome"].into_iter().find(is_there)
 }
 
-/// Measures the page from inside: its width, the smallest text, and of each figure what is drawn and its smallest label. A frame of
+/// A script in the page measures its width, its smallest text, and the drawn parts and smallest label of each figure. A frame of
 /// another file is foreign to a page, so the page sends its numbers to the outer one.
 const MEASURE: &str = r"<script>addEventListener('load', () => {
     const size = e => parseFloat(getComputedStyle(e).fontSize);

@@ -149,7 +149,7 @@ impl Regularised {
     /// # Errors
     /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method,
     /// [`IntegratorsError::WrongLength`] for one of other bodies, [`IntegratorsError::NotFinite`], [`IntegratorsError::InvalidRow`] where
-    /// its chain is none. What is refused leaves the state alone.
+    /// its chain is not an order of the bodies. A refused checkpoint leaves the state unchanged.
     pub fn resume<T: Real>(
         &self,
         bodies: &Gravitation,

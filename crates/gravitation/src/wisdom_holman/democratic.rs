@@ -147,7 +147,7 @@ impl DemocraticHeliocentric {
     /// # Errors
     /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongMethod`] for a checkpoint of another method or splitting,
     /// [`IntegratorsError::WrongLength`] for one of other bodies, [`IntegratorsError::NotFinite`], [`IntegratorsError::InvalidRow`] where
-    /// it knows no splitting. What is refused leaves the state alone.
+    /// its number of the splitting is unknown. A refused checkpoint leaves the state unchanged.
     pub fn resume<T: Real>(
         &self,
         bodies: &Gravitation,

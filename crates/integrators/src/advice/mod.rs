@@ -248,8 +248,9 @@ impl fmt::Display for Advice {
 /// within a factor of three on a machine like the one of the measurements. `integrate_and_estimate` tells the true error.
 ///
 /// # Cost
-/// What is advised is not always the fastest of all libraries, nor by as much as was aimed at, 1.5 and 2 times. On the double pendulum at 1e-6 and in
-/// Hénon and Heiles' potential at 1e-12 heyoka's compiled Taylor series takes 0.9 of our time; from 1e-8 on it takes 1.0 to 1.4 times of ours there.
+/// The advised method is not always the fastest of all libraries, nor by the factors aimed at, 1.5 and 2. On the double pendulum at 1e-6, and in
+/// Hénon and Heiles' potential at 1e-12, heyoka's compiled Taylor series takes 0.9 of our time. At smaller errors on the double pendulum it takes
+/// 1.0 to 1.4 times our time.
 /// The page *Integration* of the measurements lists each aim that is not met, beside the times below which these methods cannot go.
 ///
 /// # Errors

@@ -123,6 +123,10 @@ enum Before {
 }
 
 impl Before {
+    #[cfg_attr(
+        not(any(feature = "robots", feature = "spectral")),
+        expect(clippy::unnecessary_wraps, reason = "checkpoints are read with these features")
+    )]
     fn of(study: &Study, checkpoints: &Checkpoints) -> Result<Self, SceneError> {
         #[cfg(feature = "robots")]
         if let Subject::Robot(robot) = &study.subject {
