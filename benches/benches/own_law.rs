@@ -5,8 +5,6 @@
 //! | `invariants`, `stretches`, `general` | the law by its energy of invariants, of principal stretches, of Green's strain |
 //! | `built_in` | the law of `piola-solids`, right after it |
 //! | `per_point` | the energy of invariants with the parameters of each point in blocks of lanes |
-//! | `alone`, `lanes` | a law with history, its states as structures of arrays: point by point, in lanes |
-//! | `advance` | one implicit step with P and its consistent tangent |
 //! | `first_piola`, `first_piola_and_tangent` | P; P and ∂P/∂F |
 //! | `1`, `1k` | one call; a thousand points in blocks of lanes, in cache |
 
@@ -18,14 +16,10 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
 use piola_batch::{Gradients, LaneBlocks};
 use piola_benches::continuum::ordinary_deformations;
-use piola_continuum::stress::tangents::FirstPiolaTangent;
-use piola_continuum::{DeformationGradient, FirstPiola};
-use piola_inelastic::{Evolution, ReeseGovindjee, StepControl, advance_components, advance_in_lanes};
 use piola_laws::Excesses;
 use piola_laws::per_point::{self, Bound, EnergyOfParameters};
 use piola_numerics::Real;
-use piola_solids::{Hyperelastic, NeoHookeanCiarlet, batch};
-use piola_tensor::FourthOrder;
+use piola_solids::{Hyperelastic, batch};
 
 #[path = "../../crates/laws/tests/it/zoo.rs"]
 mod zoo;
@@ -43,7 +37,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     zoo::each(&mut Measured(&mut group))?;
     per_point(&mut group, "neo_hookean", GradedNeoHookean, [2.0, 3.0])?;
     per_point(&mut group, "mooney_rivlin", GradedMooneyRivlin, [0.5, 0.25, 1.0])?;
-    states(&mut group)?;
     group.finish();
     criterion.final_summary();
     Ok(())
@@ -167,36 +160,5 @@ fn per_point<E: EnergyOfParameters<N>, const N: usize>(
             batch::evaluate(black_box(input), request).map(|report| report.points)
         });
     });
-    Ok(())
-}
-
-/// A step of Reese and Govindjee's law at a thousand points, which all start as they were made.
-fn states(group: &mut BenchmarkGroup<'_, WallTime>) -> Result<(), Box<dyn Error>> {
-    let (rest, spring) = (NeoHookeanCiarlet::with_constants(1.0, 5.0)?, NeoHookeanCiarlet::with_constants(2.0, 8.0)?);
-    let law = ReeseGovindjee::new(rest, spring, 0.75)?;
-    let (from, to) = (vec![DeformationGradient::identity(); COUNT], ordinary_deformations(COUNT));
-    let mut stresses = vec![FirstPiola::zero(); COUNT];
-    let mut tangents = vec![FirstPiolaTangent(FourthOrder::zero()); COUNT];
-    let control = StepControl::one_step();
-    let mut arrays: Vec<Vec<f64>> = law.initial().iter().map(|_| vec![0.0; COUNT]).collect();
-    group.throughput(Throughput::Elements(COUNT as u64));
-    for way in ["alone", "lanes"] {
-        group.bench_function(format!("reese_govindjee/{way}/advance/1k"), |b| {
-            b.iter(|| {
-                for (array, value) in arrays.iter_mut().zip(law.initial()) {
-                    array.fill(value);
-                }
-                let mut columns = arrays.iter_mut().map(Vec::as_mut_slice);
-                let mut columns: [&mut [f64]; 9] = core::array::from_fn(|_| columns.next().unwrap_or_default());
-                let path = black_box([&from[..], &to[..]]);
-                if way == "lanes" {
-                    advance_in_lanes(&law, &mut columns, path, 0.1, &mut stresses, &mut tangents)
-                } else {
-                    let step = (0.1, &control);
-                    advance_components(|_| Ok(law), &mut columns, path, step, &mut stresses, &mut tangents)
-                }
-            });
-        });
-    }
     Ok(())
 }

@@ -2,8 +2,8 @@
 
 use core::str::FromStr;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng as _;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng as _;
 use rand_distr::{Distribution as _, Normal, Uniform};
 
 use crate::EnsembleError;

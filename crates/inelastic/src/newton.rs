@@ -87,7 +87,7 @@ pub(crate) struct Iterations {
 }
 
 /// The largest modulus; NaN where one is.
-fn size(values: &[f64]) -> f64 {
+pub(crate) fn size(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |size: f64, x| if x.is_nan() || size < x.abs() { x.abs() } else { size })
 }
 

@@ -56,7 +56,7 @@ pub(super) const COMMAND: Command = Command {
 };
 
 /// Each is a file of that name in `benches/benches`, and its group has the same name.
-const GROUPS: [&str; 15] = [
+const GROUPS: [&str; 16] = [
     "numerics",
     "nbody",
     "multibody",
@@ -67,6 +67,7 @@ const GROUPS: [&str; 15] = [
     "continuum",
     "constitutive",
     "own_law",
+    "own_law_with_history",
     "floor",
     "viscometry",
     "solutions",
