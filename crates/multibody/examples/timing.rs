@@ -45,6 +45,7 @@ fn row(name: &str, tree: &RigidTree) -> Result<[f64; 2], MultibodyError> {
     let inverse = least(|| tree.inverse_dynamics(&mut work, black_box(&q), &v, &a, black_box(&mut out)))? / n as f64;
     let forward = least(|| tree.forward_dynamics(&mut work, black_box(&q), &v, &a, black_box(&mut out)))? / n as f64;
     let mass = least(|| tree.mass_matrix(&mut work, black_box(&q), black_box(&mut matrix)))?;
+    let upper = least(|| tree.mass_matrix_upper(&mut work, black_box(&q), black_box(&mut matrix)))?;
     let mut derivatives = AccelerationDerivatives::new(tree);
     let by_state =
         least(|| tree.forward_dynamics_derivatives(&mut work, black_box(&q), &v, &a, black_box(&mut derivatives)))?;
@@ -75,7 +76,7 @@ fn row(name: &str, tree: &RigidTree) -> Result<[f64; 2], MultibodyError> {
         ["–", "–"].map(str::to_owned)
     };
     println!(
-        "| {name} | {inverse:.1} | {forward:.1} | {inverse_lanes:.1} | {forward_lanes:.1} | {mass:.0} | {by_forces:.0} | {by_state:.0} | {mass_lanes} | {by_state_lanes} |"
+        "| {name} | {inverse:.1} | {forward:.1} | {inverse_lanes:.1} | {forward_lanes:.1} | {mass:.0} | {upper:.0} | {by_forces:.0} | {by_state:.0} | {mass_lanes} | {by_state_lanes} |"
     );
     Ok([inverse, forward])
 }
@@ -98,8 +99,10 @@ fn matrices_in_lanes(
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    println!("| tree | inverse | forward | inverse, lanes | forward, lanes | M | ∂τ | ∂v̇ | M, lanes | ∂v̇, lanes |");
-    println!("|---|---|---|---|---|---|---|---|---|---|");
+    println!(
+        "| tree | inverse | forward | inverse, lanes | forward, lanes | M | M, upper triangle | ∂τ | ∂v̇ | M, lanes | ∂v̇, lanes |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|");
     row("ur5", &trees::ur5())?;
     row("arm with gripper, nv 9", &trees::gripper_arm())?;
     row("quadruped, nv 18", &trees::quadruped())?;

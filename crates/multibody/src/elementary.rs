@@ -29,8 +29,6 @@ impl<T: Real, const A: usize> Elementary<T, 1> for Revolute<A> {
         angular[A] += T::lit(link.sign) * x[0];
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn add_linear(_link: &Link, _x: [T; 1], _linear: &mut Vector<T>) {}
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_bias(
         link: &Link,
         w: Vector<T>,
@@ -86,8 +84,6 @@ impl<T: Real> Elementary<T, 1> for RevoluteTurned {
         angular[2] += x[0];
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn add_linear(_link: &Link, _x: [T; 1], _linear: &mut Vector<T>) {}
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_bias(
         _link: &Link,
         w: Vector<T>,
@@ -122,8 +118,6 @@ impl<T: Real> Elementary<T, 1> for Prismatic {
     fn place(link: &Link, q: &[T]) -> (NoTurn, Vector<T>) {
         (NoTurn, add(lit(link.origin), scaled(q[link.q], lit(link.axis))))
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn add_angular(_link: &Link, _x: [T; 1], _angular: &mut Vector<T>) {}
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_linear(link: &Link, x: [T; 1], linear: &mut Vector<T>) {
         *linear = add(*linear, scaled(x[0], lit(link.axis)));
@@ -221,8 +215,6 @@ impl<T: Real> Elementary<T, 3> for Spherical {
     fn add_angular(_link: &Link, x: [T; 3], angular: &mut Vector<T>) {
         *angular = add(*angular, x);
     }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn add_linear(_link: &Link, _x: [T; 3], _linear: &mut Vector<T>) {}
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_bias(
         _link: &Link,

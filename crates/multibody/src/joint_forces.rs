@@ -48,20 +48,6 @@ impl RigidTree {
     ///
     /// # Accuracy
     /// A few ulp of the largest of the three terms.
-    ///
-    /// # Example
-    /// A rotor that turns fast feels all its friction of 2 N m.
-    /// ```
-    /// use piola_multibody::{BodyIndex, BodyInertia, JointKind, RigidTree, TreeJoint};
-    /// let mut builder = RigidTree::builder();
-    /// let bearing = TreeJoint::new("bearing", JointKind::Revolute { axis: [0.0, 0.0, 1.0] }).with_friction(0.5, 2.0);
-    /// builder.attach(BodyIndex::GROUND, bearing, "rotor", BodyInertia::particle(1.0, [1.0, 0.0, 0.0])?)?;
-    /// let tree = builder.build()?;
-    /// let mut torque = [0.0];
-    /// tree.joint_forces(&[0.0], &[10.0], 0.01, &mut torque)?;
-    /// assert_eq!(torque, [-7.0]); // −0.5 · 10 − 2
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     #[doc(alias("passive forces", "dry friction", "frictionloss"))]
     pub fn joint_forces<T: Real>(&self, q: &[T], v: &[T], slip_rate: f64, out: &mut [T]) -> Result<(), MultibodyError> {
         self.check_joint_state(q, v, slip_rate)?;

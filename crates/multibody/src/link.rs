@@ -123,9 +123,11 @@ pub(crate) trait Elementary<T: Real, const N: usize> {
         Self::place(link, q)
     }
     /// Adds S_ω x.
-    fn add_angular(link: &Link, x: [T; N], angular: &mut Vector<T>);
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn add_angular(_link: &Link, _x: [T; N], _angular: &mut Vector<T>) {}
     /// Adds S_v x.
-    fn add_linear(link: &Link, x: [T; N], linear: &mut Vector<T>);
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn add_linear(_link: &Link, _x: [T; N], _linear: &mut Vector<T>) {}
     /// Adds ω × S_ω q̇ and (ω + ω') × S_v q̇, with ω of the parent in the child's axes and ω' of the child.
     fn add_bias(
         link: &Link,

@@ -51,11 +51,35 @@ impl RigidTree {
         q: &[T],
         out: &mut [T],
     ) -> Result<(), MultibodyError> {
+        self.whole_or_upper::<T, true>(work, q, out)
+    }
+
+    /// The entries (i, j) of the [mass matrix](Self::mass_matrix) with i ≤ j, at `i + j n`. The others in `out` stay as they were.
+    ///
+    /// It takes up to a fifth less time for many freedoms, and is all that a factorisation of a symmetric matrix reads.
+    ///
+    /// # Errors
+    /// Those of [`mass_matrix`](Self::mass_matrix).
+    pub fn mass_matrix_upper<T: Real>(
+        &self,
+        work: &mut TreeWorkspace<T>,
+        q: &[T],
+        out: &mut [T],
+    ) -> Result<(), MultibodyError> {
+        self.whole_or_upper::<T, false>(work, q, out)
+    }
+
+    fn whole_or_upper<T: Real, const LOWER: bool>(
+        &self,
+        work: &mut TreeWorkspace<T>,
+        q: &[T],
+        out: &mut [T],
+    ) -> Result<(), MultibodyError> {
         let n = self.freedoms;
         self.check_workspace(work)?;
         check_length("q", self.coordinates, q.len())?;
         check_length("out", n * n, out.len())?;
-        dispatch(MassMatrix { tree: self, work, q, out: &mut *out });
+        dispatch(MassMatrix::<_, LOWER> { tree: self, work, q, out: &mut *out });
         // A number that is not finite reaches the diagonal.
         if all_finite(q) && out.iter().step_by(n + 1).all(|x| all_finite(&[*x])) && self.has_unit_quaternions(q) {
             return Ok(());
@@ -64,25 +88,25 @@ impl RigidTree {
     }
 }
 
-/// The mass matrix as a kernel.
-struct MassMatrix<'a, T> {
+/// The mass matrix as a kernel, with the entries below the diagonal or without.
+struct MassMatrix<'a, T, const LOWER: bool> {
     tree: &'a RigidTree,
     work: &'a mut TreeWorkspace<T>,
     q: &'a [T],
     out: &'a mut [T],
 }
 
-impl<T: Real> Kernel for MassMatrix<'_, T> {
+impl<T: Real, const LOWER: bool> Kernel for MassMatrix<'_, T, LOWER> {
     type Output = ();
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) {
-        fill(self.tree, self.work, self.q, self.out);
+        fill(self.tree, self.work, self.q, self.out, LOWER);
     }
 }
 
-/// The mass matrix without checks.
+/// The mass matrix without checks, its entries below the diagonal where they are wanted.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn fill<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace<T>, q: &[T], out: &mut [T]) {
+pub(crate) fn fill<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace<T>, q: &[T], out: &mut [T], lower: bool) {
     let TreeWorkspace { space, composite, forces, turns, motions, .. } = work;
     if is_plain::<T>() {
         sines_and_cosines(q, turns);
@@ -92,10 +116,13 @@ pub(crate) fn fill<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace<T>, q: &[
     }
     let reference = reference(space);
     if tree.links.iter().any(|link| link.run != 1) {
-        out.fill(T::zero());
+        let n = tree.freedoms;
+        for j in 0..n {
+            out[j * n..][..if lower { n } else { j }].fill(T::zero());
+        }
     }
     for (i, link) in tree.links.iter().enumerate().rev() {
-        for_kind!(link.kind, end::<T>(tree, link, i + 1, space, forces, composite, reference, motions, out));
+        for_kind!(link.kind, end::<T>(tree, link, i + 1, space, forces, composite, reference, motions, out, lower));
     }
 }
 
@@ -112,8 +139,9 @@ fn end<T: Real, E: Elementary<T, N>, const N: usize>(
     reference: [T; 3],
     motions: &[[T; 6]],
     out: &mut [T],
+    lower: bool,
 ) {
-    entries::<T, E, N>(tree, link, state, state, space, composite, reference, motions, out);
+    entries::<T, E, N>(tree, link, state, state, space, composite, reference, motions, out, lower);
     add_to_parent::<T, E, N>(tree, link, state, forces, composite);
 }
 
@@ -130,6 +158,7 @@ pub(crate) fn entries<T: Real, E: Elementary<T, N>, const N: usize>(
     reference: [T; 3],
     motions: &[[T; 6]],
     out: &mut [T],
+    lower: bool,
 ) {
     let (n, zero, here, beyond) = (tree.freedoms, T::zero(), &space[state], &composite[state]);
     let m = [beyond.mass, zero, zero, beyond.mass, zero, beyond.mass];
@@ -139,7 +168,7 @@ pub(crate) fn entries<T: Real, E: Elementary<T, N>, const N: usize>(
     while k < N {
         let (j, force) = (link.v + k, times(here.axes, columns[k].1));
         let felt = six((add(times(here.axes, columns[k].0), cross(arm, force)), force));
-        join(tree, from, j, motions, &felt, out);
+        join(tree, from, j, motions, &felt, out, lower);
         if from == state {
             out[j * n + j] += T::lit(tree.armature[j]);
         }
@@ -147,16 +176,26 @@ pub(crate) fn entries<T: Real, E: Elementary<T, N>, const N: usize>(
     }
 }
 
-/// The entries of freedom j, which feels 𝕀 S_j, with those from a link to the ground, in its column and its row. Freedoms of the same
-/// joint beyond j are left to their own columns.
+/// The entries of freedom j, which feels 𝕀 S_j, with those from a link to the ground, in its column and, for the lower
+/// triangle, its row. Freedoms of the same joint beyond j are left to their own columns.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn join<T: Real>(tree: &RigidTree, from: usize, j: usize, s: &[[T; 6]], felt: &[T; 6], out: &mut [T]) {
+pub(crate) fn join<T: Real>(
+    tree: &RigidTree,
+    from: usize,
+    j: usize,
+    s: &[[T; 6]],
+    felt: &[T; 6],
+    out: &mut [T],
+    lower: bool,
+) {
     let n = tree.freedoms;
     for (first, end) in Runs::of(tree, from) {
         for i in first..end.min(j + 1) {
             let entry = product(&s[i], felt);
             out[j * n + i] = entry;
-            out[i * n + j] = entry;
+            if lower {
+                out[i * n + j] = entry;
+            }
         }
     }
 }

@@ -201,7 +201,7 @@ impl LaneKernel for MassMatrixInLanes<'_> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<const N: usize>(self) -> bool {
         let Some(InLanes::<N> { work, q, out, .. }) = self.memory.downcast_mut() else { return false };
-        mass_matrix::fill(self.tree, work, q, &mut out.by_tau);
+        mass_matrix::fill(self.tree, work, q, &mut out.by_tau, true);
         all_finite(q) && all_finite(&out.by_tau)
     }
 }

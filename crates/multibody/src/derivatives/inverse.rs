@@ -39,21 +39,6 @@ impl RigidTree {
     ///
     /// # Accuracy
     /// A few ulp of the largest terms that are summed, times the depth of the tree.
-    ///
-    /// # Example
-    /// A hanging pendulum, m = 2 kg, l = 0.5 m: ∂τ/∂q = m g l = 9.81 N m at rest.
-    /// ```
-    /// use piola_multibody::{BodyIndex, BodyInertia, JointKind, RigidTree, TreeJoint};
-    /// let mut builder = RigidTree::builder();
-    /// let hinge = TreeJoint::new("hinge", JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
-    /// builder.attach(BodyIndex::GROUND, hinge, "bob", BodyInertia::particle(2.0, [0.0, 0.0, -0.5])?)?;
-    /// let tree = builder.build()?;
-    /// let (mut by_q, mut by_v, mut by_a) = ([0.0], [0.0], [0.0]);
-    /// let mut work = tree.workspace();
-    /// tree.inverse_dynamics_derivatives(&mut work, &[0.0], &[0.0], &[0.0], &mut by_q, &mut by_v, &mut by_a)?;
-    /// assert_eq!((by_q, by_v, by_a), ([9.81], [0.0], [0.5]));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     #[expect(clippy::too_many_arguments, reason = "three arguments and three derivatives")]
     pub fn inverse_dynamics_derivatives<T: Real>(
         &self,
@@ -140,7 +125,7 @@ pub(super) fn differentiate<T: Real>(
         for j in link.v..link.v + link.kind.freedoms() {
             vectors[j].feel(&motions[j], &composite[i + 1]);
             if let Some(by_a) = by_a.as_deref_mut() {
-                join(tree, i + 1, j, motions, &six(pair(&vectors[j].felt)), by_a);
+                join(tree, i + 1, j, motions, &six(pair(&vectors[j].felt)), by_a, true);
                 by_a[j * (tree.freedoms + 1)] += T::lit(tree.armature[j]);
             }
             if is_paired {

@@ -200,7 +200,7 @@ impl<'a, T: Real> KeptMassMatrix<'a, T> {
             };
             if from != 0 {
                 let kind = link.kind;
-                for_kind!(kind, entries::<T>(tree, link, i + 1, from, space, composite, reference, motions, out));
+                for_kind!(kind, entries::<T>(tree, link, i + 1, from, space, composite, reference, motions, out, true));
                 counts.columns += 1;
             }
             if is_reshaped[link.parent] {

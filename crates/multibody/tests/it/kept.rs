@@ -91,3 +91,19 @@ fn after_an_overflow_nothing_is_kept() {
     tree.mass_matrix(&mut tree.workspace(), &[0.0, 1.0], &mut expected).unwrap();
     assert_close("mass matrix", kept.mass_matrix(), &expected, Tol::ulps(4.0));
 }
+
+#[test]
+fn upper_triangle_is_that_of_the_mass_matrix_and_the_rest_stays() {
+    for tree in [mixed(), chain(9), crate::trees::humanoid()] {
+        let (n, q) = (tree.freedoms(), state_of(&tree, 3).q);
+        let (mut whole, mut upper, mut work) = (vec![0.0; n * n], vec![-7.0; n * n], tree.workspace());
+        tree.mass_matrix(&mut work, &q, &mut whole).unwrap();
+        tree.mass_matrix_upper(&mut work, &q, &mut upper).unwrap();
+        for j in 0..n {
+            for i in 0..n {
+                let expected: f64 = if i <= j { whole[i + j * n] } else { -7.0 };
+                assert_eq!(upper[i + j * n].to_bits(), expected.to_bits(), "({i}, {j}) of {n}");
+            }
+        }
+    }
+}
