@@ -40,7 +40,8 @@ pub trait SecondOrder<T: Real = f64> {
     ///
     /// Where it is false, the velocities given to [`acceleration`](Self::acceleration) mean nothing.
     const VELOCITY_DEPENDENT: bool = true;
-    /// The number of coordinates where it is the same for every value of this type. The Nyström pairs then unroll their loops.
+    /// The number of coordinates where it is the same for every value of this type. The Nyström pairs then unroll
+    /// their loops, and so does [`GaussLegendre16`](crate::GaussLegendre16) up to four.
     ///
     /// A run refuses a value that differs from [`freedom`](Self::freedom).
     const FREEDOM: Option<usize> = None;

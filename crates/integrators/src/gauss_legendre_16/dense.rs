@@ -1,7 +1,7 @@
 //! An accepted step, with the state at any time within it.
 
 use super::stages::{NAME, Workspace};
-use super::tableau::LEGENDRE;
+use super::tableau::{LEGENDRE, mirrored};
 use crate::accepted::AcceptedStep;
 use crate::legendre::integrals;
 use crate::number_and_times;
@@ -82,6 +82,7 @@ impl Workspace {
         let (q0, v0) = self.start.split_at(n);
         let (q, v) = out.split_at_mut(n);
         for (k, a) in self.previous.iter().enumerate() {
+            let a = mirrored(*a);
             let sum = |weights: &[f64; 8]| weights.iter().zip(a.0).map(|(w, a)| w * a).sum::<f64>();
             v[k] = v0[k] + h * sum(&velocity);
             q[k] = q0[k] + h * (theta * v0[k] + h * sum(&position));

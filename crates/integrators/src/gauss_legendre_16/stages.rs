@@ -1,8 +1,20 @@
 //! The stages of a step: sweeps until they stand still.
+//!
+//! Nodes and weights are symmetric about the middle of the step. With sums and differences of mirrored stages,
+//!
+//! ```text
+//! s = A + A′        d = A − A′        of Aᵢ and A′ᵢ = A₉₋ᵢ, i = 1…4
+//! ```
+//!
+//! the matrices of positions and velocities fall into two blocks of four rows each, and a sweep needs half the products. Stages are
+//! stored mirrored: 1, 2, 3, 4, 8, 7, 6, 5.
 
 use piola_numerics::{Lanes, Real};
 
-use super::tableau::{COEFFICIENTS, LEGENDRE, NODES, OFFSETS, POSITION, POSITION_WEIGHTS, Stages, VELOCITY, WEIGHTS};
+use super::tableau::{
+    EVEN_COEFFICIENTS, Half, LAST, NODES, ODD_COEFFICIENTS, OFFSETS, POSITION_OF_DIFFERENCES, POSITION_OF_SUMS,
+    POSITION_WEIGHTS, Stages, VELOCITY_OF_DIFFERENCES, VELOCITY_OF_SUMS, WEIGHTS, mirrored,
+};
 use crate::collocation::{Attempt, Collocation};
 use crate::state::{check_finite, compensated_add};
 use crate::{IntegratorsError, SecondOrder, State};
@@ -52,39 +64,65 @@ struct Continuation {
 
 impl Default for Continuation {
     fn default() -> Self {
-        Self { ratio: f64::NAN, polynomials: [Lanes([0.0; 8]); 8] }
+        Self { ratio: f64::NAN, polynomials: [ZERO; 8] }
     }
 }
 
-/// The sum over the stages, in pairs.
+const ZERO: Stages = Lanes([0.0; 8]);
+
+/// Stages and their mirror images.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn sum(x: Stages) -> f64 {
-    let x = x.0;
-    ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]))
+fn halves(x: Stages) -> (Half, Half) {
+    let [a, b, c, d, e, f, g, h] = x.0;
+    (Lanes([a, b, c, d]), Lanes([e, f, g, h]))
 }
 
-/// Σ of the products of two rows of stages, in pairs.
+/// Sums and differences of mirrored stages.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn dot(a: Stages, b: Stages) -> f64 {
-    sum(a * b)
+fn sums_and_differences(x: Stages) -> (Half, Half) {
+    let (first, last) = halves(x);
+    (first + last, first - last)
 }
 
-/// A matrix, by its columns, times a row of stages.
+/// base + (same ± opposite): stages of what is the same for mirrored ones and what is opposite.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn times(columns: &[Stages; 8], x: Stages) -> Stages {
-    let mut even = columns[0] * Lanes::splat(x.0[0]);
-    let mut odd = columns[1] * Lanes::splat(x.0[1]);
-    for j in [2, 4, 6] {
-        even += columns[j] * Lanes::splat(x.0[j]);
-        odd += columns[j + 1] * Lanes::splat(x.0[j + 1]);
-    }
-    even + odd
+fn joined(base: f64, same: Half, opposite: Half) -> Stages {
+    let (first, last) = ((Lanes::splat(base) + (same + opposite)).0, (Lanes::splat(base) + (same - opposite)).0);
+    Lanes([first[0], first[1], first[2], first[3], last[0], last[1], last[2], last[3]])
+}
+
+/// The sum of the lanes, in pairs.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn sum(x: Half) -> f64 {
+    (x.0[0] + x.0[2]) + (x.0[1] + x.0[3])
+}
+
+/// The sum over the stages.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn sum_of_all(x: Stages) -> f64 {
+    let (first, last) = halves(x);
+    sum(first + last)
+}
+
+/// A block, by its columns, times four numbers.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn times(columns: &[Half; 4], x: Half) -> Half {
+    let product = |j: usize| columns[j] * Lanes::splat(x.0[j]);
+    (product(0) + product(2)) + (product(1) + product(3))
+}
+
+/// A block times a number.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn scaled(columns: &[Half; 4], factor: f64) -> [Half; 4] {
+    let [a, b, c, d] = *columns;
+    let factor = Lanes::splat(factor);
+    [a * factor, b * factor, c * factor, d * factor]
 }
 
 /// |γ₇| of all components over their mean modulus at a stage.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn last_coefficient(accelerations: &[Stages], size: f64) -> f64 {
-    let last: f64 = accelerations.iter().map(|&a| dot(LEGENDRE[7], a).abs()).sum();
+    let last: f64 = accelerations.iter().map(|&a| sum(LAST * sums_and_differences(a).1).abs()).sum();
     if 0.0 < size { last / (0.125 * size) } else { 0.0 }
 }
 
@@ -105,8 +143,7 @@ impl Continuation {
         // One after the other, not in a loop: the compiler makes gathers and scatters of one, which cost more than the sweeps.
         let (one, x) = (Lanes::splat(1.0), Lanes::splat(1.0) + Lanes::splat(2.0 * ratio) * NODES);
         let second = next_polynomial(1.0, x, x, one);
-        let zero = Lanes([0.0; 8]);
-        self.polynomials = [one, x, second, zero, zero, zero, zero, zero];
+        self.polynomials = [one, x, second, ZERO, ZERO, ZERO, ZERO, ZERO];
         if ratio.abs() <= FAR {
             let third = next_polynomial(2.0, x, second, x);
             let fourth = next_polynomial(3.0, x, third, second);
@@ -120,18 +157,22 @@ impl Continuation {
     /// The accelerations of the last step, continued to the stages of the next.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn of(&self, previous: Stages) -> Stages {
-        times(&self.polynomials, times(&COEFFICIENTS, previous))
+        let (sums, differences) = sums_and_differences(previous);
+        let (even, odd) = (times(&EVEN_COEFFICIENTS, sums), times(&ODD_COEFFICIENTS, differences));
+        let pair = |k: usize| {
+            self.polynomials[2 * k] * Lanes::splat(even.0[k]) + self.polynomials[2 * k + 1] * Lanes::splat(odd.0[k])
+        };
+        (pair(0) + pair(2)) + (pair(1) + pair(3))
     }
 }
 
 impl Workspace {
     pub(super) fn begin(&mut self, n: usize) {
-        let zero = Lanes([0.0; 8]);
         for stages in
             [&mut self.accelerations, &mut self.previous, &mut self.positions, &mut self.velocities, &mut self.swept]
         {
             stages.clear();
-            stages.resize(n, zero);
+            stages.resize(n, ZERO);
         }
         for values in [&mut self.start, &mut self.next, &mut self.next_carry] {
             values.clear();
@@ -141,17 +182,178 @@ impl Workspace {
         self.expected = 0.1;
     }
 
-    /// The polynomial of the last step, its length, and the contraction that is expected, for a checkpoint.
+    /// The polynomial of the last step, its length, and the contraction that is expected, for a checkpoint: stages in the order of time.
     pub(super) fn saved(&self) -> (Vec<f64>, [f64; 2]) {
-        (self.previous.iter().flat_map(|stages| stages.0).collect(), [self.previous_step, self.expected])
+        (self.previous.iter().flat_map(|&stages| mirrored(stages).0).collect(), [self.previous_step, self.expected])
     }
 
     /// The same from a checkpoint.
     pub(super) fn restore(&mut self, memory: &[f64], [previous_step, expected]: [f64; 2]) {
         for (stages, saved) in self.previous.iter_mut().zip(memory.as_chunks::<8>().0) {
-            *stages = Lanes(*saved);
+            *stages = mirrored(Lanes(*saved));
         }
         (self.previous_step, self.expected) = (previous_step, expected);
+    }
+}
+
+/// A step that is attempted.
+struct Attempted<'a> {
+    state: &'a State,
+    h: f64,
+    tolerance: f64,
+    most: f64,
+}
+
+/// The stages of the coordinates.
+struct Coordinates<'a> {
+    accelerations: &'a mut [Stages],
+    positions: &'a mut [Stages],
+    velocities: &'a mut [Stages],
+    swept: &'a mut [Stages],
+}
+
+/// Sweeps over the stages, from the accelerations that are given. All slices of coordinates have the same length, which the compiler may
+/// know.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn sweep<F: SecondOrder<Stages>>(
+    field: &mut F,
+    step: &Attempted<'_>,
+    coordinates: Coordinates<'_>,
+    expected: &mut f64,
+    evaluations: &mut u64,
+) -> Result<Attempt, F::Error> {
+    let Coordinates { accelerations, positions, velocities, swept } = coordinates;
+    let &Attempted { state, h, tolerance, most } = step;
+    let n = accelerations.len();
+    let (q, v) = (&state.values[..n], &state.values[n..2 * n]);
+    let (q_carry, v_carry) = (&state.carry[..n], &state.carry[n..2 * n]);
+    let time = Lanes::splat(state.time) + Lanes::splat(h) * NODES;
+    let square = h * h;
+    let (half, half_square) = (0.5 * h, 0.5 * square);
+    let positions_of_sums = scaled(&POSITION_OF_SUMS, square);
+    let positions_of_differences = scaled(&POSITION_OF_DIFFERENCES, square);
+    let velocities_of_sums = scaled(&VELOCITY_OF_SUMS, h);
+    let velocities_of_differences = scaled(&VELOCITY_OF_DIFFERENCES, h);
+    let mut attempt = Attempt::begin(*expected);
+    let (mut size, mut rises) = (0.0, 0);
+    while attempt.sweeps < MOST_SWEEPS {
+        for k in 0..n {
+            let (sums, differences) = sums_and_differences(accelerations[k]);
+            // Symmetric in time whatever the rounding of the coefficients: from the middle of both ends, with the mean of both velocities.
+            let gained = sum(WEIGHTS * sums);
+            if F::VELOCITY_DEPENDENT {
+                let mean = v_carry[k] + half * gained;
+                let same = Lanes::splat(mean) + times(&velocities_of_differences, differences);
+                velocities[k] = joined(v[k], same, times(&velocities_of_sums, sums));
+            }
+            let moved = h * (v[k] + v_carry[k]);
+            let middle = (q_carry[k] + 0.5 * moved) + half_square * sum(POSITION_WEIGHTS * differences);
+            let same = times(&positions_of_sums, sums) + Lanes::splat(middle);
+            let turned = Lanes::splat(moved) * OFFSETS + times(&positions_of_differences, differences);
+            let opposite = turned + Lanes::splat(half_square * gained) * OFFSETS;
+            positions[k] = joined(q[k], same, opposite);
+        }
+        attempt.sweeps += 1;
+        *evaluations += 8;
+        field.acceleration(time, positions, velocities, swept)?;
+        // Sums, not maxima: what is not finite stays in them.
+        let (mut change, mut all) = (ZERO, ZERO);
+        for k in 0..n {
+            change += (swept[k] - accelerations[k]).abs();
+            all += swept[k].abs();
+            accelerations[k] = swept[k];
+        }
+        size = sum_of_all(all);
+        if !size.is_finite() {
+            return Ok(attempt);
+        }
+        let change = if 0.0 < size { sum_of_all(change) / size } else { 0.0 };
+        let fell = change / attempt.change;
+        // Near rounding the changes fall no more, whatever the step.
+        if attempt.change.is_finite() && MEASURABLE < change {
+            attempt.contraction = fell.max(1e-3);
+        }
+        attempt.change = change;
+        let left = change * attempt.contraction.min(1.0);
+        if left <= UNSWEPT * tolerance || (0.5 < fell && change < NEAR_ROUNDING) {
+            attempt.converged = true;
+            break;
+        }
+        // A shorter step is cheaper than waiting; a fixed one waits: changes may grow at first and fall then.
+        rises += u32::from(1.0 < fell);
+        if rises == MOST_RISES && most.is_finite() {
+            break;
+        }
+        if attempt.sweeps == 2 && most.is_finite() {
+            attempt.ratio = last_coefficient(accelerations, size);
+            if most < attempt.ratio {
+                attempt.hopeless = true;
+                return Ok(attempt);
+            }
+        }
+    }
+    *expected = attempt.contraction.min(0.5);
+    attempt.ratio = last_coefficient(accelerations, size);
+    Ok(attempt)
+}
+
+impl Workspace {
+    /// The accelerations at the stages as the last step, continued, foretells them.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn foretell(&mut self, h: f64, accelerations: &mut [Stages]) {
+        if self.previous_step.abs() <= 0.0 {
+            accelerations.fill(ZERO);
+            return;
+        }
+        self.continuation.to(h / self.previous_step);
+        let n = accelerations.len();
+        for (acceleration, &previous) in accelerations.iter_mut().zip(&self.previous[..n]) {
+            *acceleration = self.continuation.of(previous);
+        }
+    }
+
+    /// Sweeps over the stages of N coordinates: the compiler unrolls their loops, and holds them in registers.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn sweep_few<F: SecondOrder<Stages>, const N: usize>(
+        &mut self,
+        field: &mut F,
+        step: &Attempted<'_>,
+        evaluations: &mut u64,
+    ) -> Result<Attempt, F::Error> {
+        let [mut accelerations, mut positions, mut velocities, mut swept] = [[ZERO; N]; 4];
+        self.foretell(step.h, &mut accelerations);
+        let coordinates = Coordinates {
+            accelerations: &mut accelerations,
+            positions: &mut positions,
+            velocities: &mut velocities,
+            swept: &mut swept,
+        };
+        let attempt = sweep(field, step, coordinates, &mut self.expected, evaluations);
+        self.accelerations[..N].copy_from_slice(&accelerations);
+        self.swept[..N].copy_from_slice(&swept);
+        attempt
+    }
+
+    /// The same of any number.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn sweep_many<F: SecondOrder<Stages>>(
+        &mut self,
+        field: &mut F,
+        step: &Attempted<'_>,
+        evaluations: &mut u64,
+    ) -> Result<Attempt, F::Error> {
+        let mut accelerations = core::mem::take(&mut self.accelerations);
+        self.foretell(step.h, &mut accelerations);
+        let n = accelerations.len();
+        let coordinates = Coordinates {
+            accelerations: &mut accelerations,
+            positions: &mut self.positions[..n],
+            velocities: &mut self.velocities[..n],
+            swept: &mut self.swept[..n],
+        };
+        let attempt = sweep(field, step, coordinates, &mut self.expected, evaluations);
+        self.accelerations = accelerations;
+        attempt
     }
 }
 
@@ -168,97 +370,31 @@ impl<F: SecondOrder<Stages>> Collocation<f64, F> for Workspace {
         most: f64,
         evaluations: &mut u64,
     ) -> Result<Attempt, F::Error> {
-        // Not F::FREEDOM: unrolled over two coordinates the sweep needs more registers than there are, and takes up to a third longer.
-        let n = self.accelerations.len();
-        let (q, v) = state.values.split_at(n);
-        let (q_carry, v_carry) = state.carry.split_at(n);
-        let accelerations = &mut self.accelerations[..n];
-        let (positions, velocities) = (&mut self.positions[..n], &mut self.velocities[..n]);
-        let swept = &mut self.swept[..n];
-        if self.previous_step.abs() <= 0.0 {
-            accelerations.fill(Lanes([0.0; 8]));
-        } else {
-            self.continuation.to(h / self.previous_step);
-            for (acceleration, &previous) in accelerations.iter_mut().zip(&self.previous[..n]) {
-                *acceleration = self.continuation.of(previous);
-            }
+        let step = Attempted { state, h, tolerance, most };
+        match F::FREEDOM {
+            Some(1) => self.sweep_few::<F, 1>(field, &step, evaluations),
+            Some(2) => self.sweep_few::<F, 2>(field, &step, evaluations),
+            Some(3) => self.sweep_few::<F, 3>(field, &step, evaluations),
+            Some(4) => self.sweep_few::<F, 4>(field, &step, evaluations),
+            _ => self.sweep_many(field, &step, evaluations),
         }
-        let time = Lanes::splat(state.time) + Lanes::splat(h) * NODES;
-        let square = h * h;
-        let (h_all, square_all) = (Lanes::splat(h), Lanes::splat(square));
-        let mut attempt = Attempt::begin(self.expected);
-        let (mut size, mut rises) = (0.0, 0);
-        while attempt.sweeps < MOST_SWEEPS {
-            for k in 0..n {
-                let a = accelerations[k];
-                // From the middle of both ends: symmetric in time whatever the rounding of the coefficients.
-                let mean = v_carry[k] + 0.5 * (h * dot(WEIGHTS, a));
-                if F::VELOCITY_DEPENDENT {
-                    velocities[k] = Lanes::splat(v[k]) + (Lanes::splat(mean) + h_all * times(&VELOCITY, a));
-                }
-                let moved = h * (v[k] + mean);
-                let middle = q_carry[k] + 0.5 * (moved + square * dot(POSITION_WEIGHTS, a));
-                let about = Lanes::splat(moved) * OFFSETS + square_all * times(&POSITION, a);
-                positions[k] = Lanes::splat(q[k]) + (Lanes::splat(middle) + about);
-            }
-            attempt.sweeps += 1;
-            *evaluations += 8;
-            field.acceleration(time, positions, velocities, swept)?;
-            // Sums, not maxima: what is not finite stays in them.
-            let (mut change, mut all) = (Lanes([0.0; 8]), Lanes([0.0; 8]));
-            for k in 0..n {
-                change += (swept[k] - accelerations[k]).abs();
-                all += swept[k].abs();
-                accelerations[k] = swept[k];
-            }
-            size = sum(all);
-            if !size.is_finite() {
-                return Ok(attempt);
-            }
-            let change = if 0.0 < size { sum(change) / size } else { 0.0 };
-            let fell = change / attempt.change;
-            // Near rounding the changes fall no more, whatever the step.
-            if attempt.change.is_finite() && MEASURABLE < change {
-                attempt.contraction = fell.max(1e-3);
-            }
-            attempt.change = change;
-            let left = change * attempt.contraction.min(1.0);
-            if left <= UNSWEPT * tolerance || (0.5 < fell && change < NEAR_ROUNDING) {
-                attempt.converged = true;
-                break;
-            }
-            // A shorter step is cheaper than waiting; a fixed one waits: changes may grow at first and fall then.
-            rises += u32::from(1.0 < fell);
-            if rises == MOST_RISES && most.is_finite() {
-                break;
-            }
-            if attempt.sweeps == 2 && most.is_finite() {
-                attempt.ratio = last_coefficient(accelerations, size);
-                if most < attempt.ratio {
-                    attempt.hopeless = true;
-                    return Ok(attempt);
-                }
-            }
-        }
-        self.expected = attempt.contraction.min(0.5);
-        attempt.ratio = last_coefficient(accelerations, size);
-        Ok(attempt)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn accept(&mut self, state: &mut State, h: f64) -> Result<(), IntegratorsError<F::Error>> {
-        let n = self.accelerations.len();
-        self.start.copy_from_slice(&state.values);
-        self.next.copy_from_slice(&state.values);
-        self.next_carry.copy_from_slice(&state.carry);
-        let (q, v) = self.next.split_at_mut(n);
-        let (q_carry, v_carry) = self.next_carry.split_at_mut(n);
+        let n = F::FREEDOM.unwrap_or(self.accelerations.len());
+        self.start[..2 * n].copy_from_slice(&state.values[..2 * n]);
+        self.next[..2 * n].copy_from_slice(&state.values[..2 * n]);
+        self.next_carry[..2 * n].copy_from_slice(&state.carry[..2 * n]);
+        let (q, v) = self.next[..2 * n].split_at_mut(n);
+        let (q_carry, v_carry) = self.next_carry[..2 * n].split_at_mut(n);
+        let accelerations = &self.accelerations[..n];
         for k in 0..n {
-            let a = self.accelerations[k];
-            let gained = h * dot(WEIGHTS, a);
+            let (sums, differences) = sums_and_differences(accelerations[k]);
+            let gained = h * sum(WEIGHTS * sums);
             // With the velocities of both ends: symmetric in time whatever the rounding of the weights.
             let mean = v[k] + (v_carry[k] + 0.5 * gained);
-            compensated_add(&mut q[k], &mut q_carry[k], h * mean + (h * h) * dot(POSITION_WEIGHTS, a));
+            compensated_add(&mut q[k], &mut q_carry[k], h * mean + (h * h) * sum(POSITION_WEIGHTS * differences));
             compensated_add(&mut v[k], &mut v_carry[k], gained);
         }
         check_finite("state", Some(state.time), &self.next)?;

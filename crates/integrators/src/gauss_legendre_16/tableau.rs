@@ -7,9 +7,11 @@ use piola_numerics::Lanes;
 
 /// A number for each of the eight stages.
 pub(super) type Stages = Lanes<f64, 8>;
+/// A number for each pair of mirrored stages.
+pub(super) type Half = Lanes<f64, 4>;
 
-/// c
-pub(super) const NODES: Stages = Lanes([
+/// c, mirrored.
+pub(super) const NODES: Stages = mirrored(Lanes([
     0.019855071751231884,
     0.10166676129318664,
     0.2372337950418355,
@@ -18,42 +20,18 @@ pub(super) const NODES: Stages = Lanes([
     0.7627662049581645,
     0.8983332387068134,
     0.9801449282487681,
-]);
-/// b
-pub(super) const WEIGHTS: Stages = Lanes([
-    0.05061426814518813,
-    0.11119051722668724,
-    0.15685332293894363,
-    0.181341891689181,
-    0.181341891689181,
-    0.15685332293894363,
-    0.11119051722668724,
-    0.05061426814518813,
-]);
-/// b (½ − c), antisymmetric to the last bit: a step back undoes a step, and rounding of coefficients causes no drift.
-pub(super) const POSITION_WEIGHTS: Stages = Lanes([
-    0.024302184146935264,
-    0.04429087884039205,
-    0.04121575240374363,
-    0.016632192535744883,
-    -0.016632192535744883,
-    -0.04121575240374363,
-    -0.04429087884039205,
-    -0.024302184146935264,
-]);
-/// c − ½, antisymmetric to the last bit.
-pub(super) const OFFSETS: Stages = Lanes([
-    -0.48014492824876814,
-    -0.39833323870681336,
-    -0.2627662049581645,
-    -0.0917173212478249,
-    0.0917173212478249,
-    0.2627662049581645,
-    0.39833323870681336,
-    0.48014492824876814,
-]);
+]));
+/// b of the first four stages.
+pub(super) const WEIGHTS: Half =
+    Lanes([0.05061426814518813, 0.11119051722668724, 0.15685332293894363, 0.181341891689181]);
+/// b (½ − c) of the first four stages; of the others −b (½ − c): a step back undoes a step, and rounding of coefficients causes no drift.
+pub(super) const POSITION_WEIGHTS: Half =
+    Lanes([0.024302184146935264, 0.04429087884039205, 0.04121575240374363, 0.016632192535744883]);
+/// c − ½ of the first four stages.
+pub(super) const OFFSETS: Half =
+    Lanes([-0.48014492824876814, -0.39833323870681336, -0.2627662049581645, -0.0917173212478249]);
 /// The columns of A − ½ 1bᵀ, antisymmetric about the middle to the last bit: entry i of column j.
-pub(super) const VELOCITY: [Stages; 8] = [
+const VELOCITY: [Stages; 8] = [
     Lanes([
         2.4308653429145085e-63,
         0.029452187694960257,
@@ -136,7 +114,7 @@ pub(super) const VELOCITY: [Stages; 8] = [
     ]),
 ];
 /// The columns of A² − ½ cbᵀ − ½ 1dᵀ with dⱼ = bⱼ (½ − cⱼ), symmetric about the middle to the last bit.
-pub(super) const POSITION: [Stages; 8] = [
+const POSITION: [Stages; 8] = [
     Lanes([
         -0.012349491288219137,
         -0.010688472368098537,
@@ -301,13 +279,60 @@ pub(super) const LEGENDRE: [Stages; 8] = [
         0.11769245644771356,
     ]),
 ];
-/// The same by columns, entry k of column j: the coefficients of a polynomial from its values at the stages.
-pub(super) const COEFFICIENTS: [Stages; 8] = {
-    let mut columns = [Lanes([0.0; 8]); 8];
+
+/// Stages in the order of time, mirrored: 1, 2, 3, 4, 8, 7, 6, 5. And back.
+pub(super) const fn mirrored(x: Stages) -> Stages {
+    let [a, b, c, d, e, f, g, h] = x.0;
+    Lanes([a, b, c, d, h, g, f, e])
+}
+
+/// ½ (mᵢⱼ ± mᵢⱼ′), j′ = 9 − j, i, j ≤ 4: half the sum of mirrored rows, or half their difference, of a symmetric or antisymmetric matrix.
+const fn block(columns: &[Stages; 8], sign: f64) -> [Half; 4] {
+    let mut block = [Lanes([0.0; 4]); 4];
     let mut k = 0;
-    while k < 64 {
-        columns[k % 8].0[k / 8] = LEGENDRE[k / 8].0[k % 8];
+    while k < 16 {
+        let (i, j) = (k % 4, k / 4);
+        block[j].0[i] = 0.5 * (columns[j].0[i] + sign * columns[7 - j].0[i]);
+        k += 1;
+    }
+    block
+}
+
+/// What sums of mirrored accelerations give to the velocities of mirrored stages, opposite to both.
+pub(super) const VELOCITY_OF_SUMS: [Half; 4] = block(&VELOCITY, 1.0);
+/// What differences give to the velocities, the same to both.
+pub(super) const VELOCITY_OF_DIFFERENCES: [Half; 4] = block(&VELOCITY, -1.0);
+/// What sums of mirrored accelerations give to the positions of mirrored stages, the same to both: also to the middle of both ends by the
+/// mean of both velocities, ¼ b.
+pub(super) const POSITION_OF_SUMS: [Half; 4] = {
+    let mut block = block(&POSITION, 1.0);
+    let mut k = 0;
+    while k < 16 {
+        block[k / 4].0[k % 4] += 0.25 * WEIGHTS.0[k / 4];
+        k += 1;
+    }
+    block
+};
+/// What differences give to the positions, opposite to both.
+pub(super) const POSITION_OF_DIFFERENCES: [Half; 4] = block(&POSITION, -1.0);
+
+/// Every second row of `LEGENDRE` from `first` on, by columns: coefficients of a polynomial from sums or differences of mirrored stages.
+const fn coefficients(first: usize) -> [Half; 4] {
+    let mut columns = [Lanes([0.0; 4]); 4];
+    let mut k = 0;
+    while k < 16 {
+        columns[k % 4].0[k / 4] = LEGENDRE[first + 2 * (k / 4)].0[k % 4];
         k += 1;
     }
     columns
+}
+
+/// The even coefficients of a polynomial from sums.
+pub(super) const EVEN_COEFFICIENTS: [Half; 4] = coefficients(0);
+/// The odd ones from differences.
+pub(super) const ODD_COEFFICIENTS: [Half; 4] = coefficients(1);
+/// The row of the last coefficient, for differences.
+pub(super) const LAST: Half = {
+    let [a, b, c, d, ..] = LEGENDRE[7].0;
+    Lanes([a, b, c, d])
 };
