@@ -33,7 +33,11 @@ FLUIDS = {
     "herschel-bulkley": (3, lambda p, k: p[0] + p[1] * k ** p[2]),
     "sisko": (3, lambda p, k: p[0] * k + p[1] * k ** p[2]),
     "cross": (4, lambda p, k: (p[1] + (p[0] - p[1]) / (1 + (p[2] * k) ** p[3])) * k),
-    "carreau-yasuda": (5, lambda p, k: (p[1] + (p[0] - p[1]) * (1 + (p[2] * k) ** p[4]) ** ((p[3] - 1) / p[4])) * k),
+    # Over logarithms: (λ k)^a overflows at a sharp transition, and a false optimum lies there.
+    "carreau-yasuda": (
+        5,
+        lambda p, k: (p[1] + (p[0] - p[1]) * np.exp((p[3] - 1) / p[4] * np.logaddexp(0, p[4] * np.log(p[2] * k)))) * k,
+    ),
 }
 # RheoJAX's model and the order of its parameters.
 PEERS = {

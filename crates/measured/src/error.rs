@@ -32,7 +32,7 @@ pub enum MeasuredError {
         most: u64,
     },
     /// The file is not UTF-8 text.
-    #[error("`{}` is not a text file: byte {byte:#04x} at line {line}, column {column} is not UTF-8 text", path.display())]
+    #[error("{}:{line}:{column}: the file is not a text file: byte {byte:#04x}; valid: UTF-8 text", path.display())]
     NotText {
         /// The path as given.
         path: PathBuf,

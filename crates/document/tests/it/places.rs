@@ -145,10 +145,15 @@ fn a_byte_that_is_no_text_is_named_by_line_and_column() {
     ];
     for (bytes, line, column, byte) in cases {
         match read_back("bytes", bytes) {
-            Err(DocumentError::NotText { line: l, column: c, byte: b, .. }) => {
-                assert_eq!((l, c, b), (line, column, byte), "{bytes:?}");
+            Err(error) => {
+                assert!(
+                    matches!(error, DocumentError::NotText { line: l, column: c, byte: b, .. } if (l, c, b) == (line, column, byte)),
+                    "{bytes:?}: {error:?}"
+                );
+                let (words, place) = (error.to_string(), format!(".toml:{line}:{column}: the file is not a text file"));
+                assert!(words.contains(&place), "{words}");
             }
-            other => panic!("{bytes:?}: {other:?}"),
+            Ok(_) => panic!("{bytes:?} is no text"),
         }
     }
 }

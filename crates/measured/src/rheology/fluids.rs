@@ -1,5 +1,6 @@
 //! Parameters of fluids from flow curves, discharges and speeds.
 
+use core::cell::{Cell, RefCell};
 use core::fmt::Write as _;
 use core::ops::ControlFlow;
 
@@ -159,7 +160,7 @@ type Embedding = (FluidModel, FluidModel, fn(&[f64]) -> Vec<f64>);
 const NOTHING: f64 = 1e-12;
 
 /// Fluids with fluids that they contain.
-const CONTAINED: [Embedding; 9] = [
+const CONTAINED: [Embedding; 10] = [
     (FluidModel::PowerLaw, FluidModel::Newtonian, |p| vec![p[0], 1.0]),
     (FluidModel::Bingham, FluidModel::Newtonian, |p| vec![NOTHING * p[0], p[0]]),
     (FluidModel::Casson, FluidModel::Newtonian, |p| vec![NOTHING * p[0], p[0]]),
@@ -176,7 +177,21 @@ const CONTAINED: [Embedding; 9] = [
         let [zero, time] = beyond(p);
         vec![zero, p[0], time, p[2], 1.0]
     }),
+    // (1 + (λ k)^m)⁻¹, as far as m < 1.
+    (FluidModel::CarreauYasuda, FluidModel::Cross, |p| vec![p[0], p[1], p[2], (1.0 - p[3]).max(1e-3), p[3]]),
 ];
+
+/// The fluids, and after them those that they contain.
+fn with_contained(fluids: &[FluidModel]) -> Vec<FluidModel> {
+    let mut all = fluids.to_vec();
+    // From the largest fluids to the smallest.
+    for (larger, smaller, _) in CONTAINED.iter().rev() {
+        if all.contains(larger) && !all.contains(smaller) {
+            all.push(*smaller);
+        }
+    }
+    all
+}
 
 /// A viscosity at rest, and a time, of a fluid that thins as Sisko's over all rows.
 fn beyond(sisko: &[f64]) -> [f64; 2] {
@@ -265,19 +280,24 @@ pub fn compare_until(measured: &Measured, request: &Request, watch: Watch<'_>) -
     })?;
     let look = Look::at(measured);
     let Request { weighting, confidence, intervals, .. } = *request;
-    let options = Options { weighting, confidence, intervals, ..Options::default() };
-    let task = Task { measured, data: &data, look, options: &options };
-    let mut comparison = Comparison::of(&request.fluids, watch, |fluid, stop| fitted(fluid, &task, &[], stop));
+    let linear = Options { weighting, confidence, intervals: Intervals::Linear, ..Options::default() };
+    let options = Options { intervals, ..linear.clone() };
+    let task = Task { measured, data: &data, look, options: &linear };
+    // First all optima with linear intervals: a fluid alone then comes as far as in the company of those that it contains.
+    let mut comparison =
+        Comparison::of(&with_contained(&request.fluids), watch, |fluid, stop| fitted(fluid, &task, &[], stop));
+    comparison.contain(&task, watch);
+    comparison.candidates.retain(|candidate| request.fluids.contains(&candidate.model));
     comparison.unranked = request.fluids.iter().copied().filter(|fluid| fluid.is_regularisation()).collect();
-    if !comparison.interrupted {
-        comparison.contain(&task);
+    if intervals != Intervals::Linear {
+        comparison.refine(&Task { options: &options, ..task }, watch);
     }
     Ok(comparison)
 }
 
 impl Comparison {
     /// Fits again, from there, every fluid that came out worse than one that it contains.
-    fn contain(&mut self, task: &Task<'_>) {
+    fn contain(&mut self, task: &Task<'_>, watch: Watch<'_>) {
         for (larger, smaller, embed) in CONTAINED {
             let of = |fluid| self.candidates.iter().position(|candidate| candidate.model == fluid);
             let (Some(larger), Some(smaller)) = (of(larger), of(smaller)) else { continue };
@@ -286,14 +306,45 @@ impl Comparison {
             if squares <= contained.squares * (1.0 + 1e-9) {
                 continue;
             }
-            let values: Vec<f64> = contained.parameters.iter().map(|parameter| parameter.value).collect();
-            let again = fitted(self.candidates[larger].model, task, &[embed(&values)], &|| false);
+            if self.interrupted || watch(1.0).is_break() {
+                self.interrupted = true;
+                return;
+            }
+            let again = fitted(self.candidates[larger].model, task, &[embed(&contained.values())], &|| false);
             if let Ok(again) = again
                 && again.squares < squares
             {
                 self.candidates[larger].fit = Ok(again);
             }
         }
+    }
+
+    /// Finds the intervals that are asked for, from the optima; those that are interrupted stay linear.
+    fn refine(&mut self, task: &Task<'_>, watch: Watch<'_>) {
+        let (count, watch) = (self.candidates.len() as f64, RefCell::new(watch));
+        let broken = Cell::new(self.interrupted);
+        for (index, candidate) in self.candidates.iter_mut().enumerate() {
+            let stop = || {
+                if !broken.get() {
+                    broken.set((*watch.borrow_mut())(index as f64 / count).is_break());
+                }
+                broken.get()
+            };
+            if stop() {
+                break;
+            }
+            let Ok(found) = &candidate.fit else { continue };
+            if let Ok(again) = fitted(candidate.model, task, &[found.values()], &stop) {
+                candidate.fit = Ok(again);
+            }
+        }
+        self.interrupted = broken.get();
+    }
+}
+
+impl FittedFluid {
+    fn values(&self) -> Vec<f64> {
+        self.parameters.iter().map(|parameter| parameter.value).collect()
     }
 }
 

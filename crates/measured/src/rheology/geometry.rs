@@ -32,7 +32,13 @@ fn share(name: &str, key: &str) -> Option<f64> {
     WORDS.iter().find(of).map(|(_, _, share)| *share)
 }
 
-/// A positive length, m, or angle, rad, with its unit.
+/// Lengths, m, that a rheometer may have: powers of others leave the range of doubles.
+const LENGTHS: [f64; 2] = [1e-9, 1e3];
+
+/// What a length may be, in words.
+pub(super) const LENGTH_IN_WORDS: &str = "a length from 1 nm to 1 km";
+
+/// A length, m, from 1 nm to 1 km, or a positive angle, rad, with its unit.
 pub(super) fn size(text: &str, dimension: Dimension) -> Option<f64> {
     let text = text.trim();
     let value = match text.parse::<Quantity>() {
@@ -46,7 +52,8 @@ pub(super) fn size(text: &str, dimension: Dimension) -> Option<f64> {
             unit.to_si(number)
         }
     };
-    (0.0 < value && value.is_finite()).then_some(value)
+    let [least, most] = if dimension == Dimension::ANGLE { [f64::MIN_POSITIVE, f64::MAX] } else { LENGTHS };
+    (least..=most).contains(&value).then_some(value)
 }
 
 /// The sizes of a flow with where they stand.
@@ -84,7 +91,7 @@ impl<'s> Geometry<'s> {
             let is_number = setting.value.replace(',', ".").parse::<f64>().is_ok_and(|x| 0.0 < x);
             let valid = match (dimension == Dimension::ANGLE, is_number) {
                 (true, false) => "a positive angle".to_owned(),
-                (false, false) => "a positive length".to_owned(),
+                (false, false) => LENGTH_IN_WORDS.to_owned(),
                 (true, true) => format!("its unit with it, as `{} deg`", setting.value),
                 (false, true) => format!("its unit with it, as `{} mm`", setting.value),
             };

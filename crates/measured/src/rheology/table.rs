@@ -242,7 +242,7 @@ fn given_sizes(kind: FlowKind, sizes: &[(String, String)]) -> Result<Vec<(String
         let size = accepted.clone().find(|(other, _)| other == name).and_then(|(_, dimension)| size(text, *dimension));
         let Some(size) = size else {
             let valid = if accepted.clone().any(|(other, _)| other == name) {
-                "a positive length or angle with its unit, as 2mm or 2deg"
+                "a length from 1 nm to 1 km, or a positive angle, with its unit, as 2mm or 2deg"
             } else {
                 "only the sizes of this flow"
             };

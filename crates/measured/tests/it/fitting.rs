@@ -152,7 +152,10 @@ fn unreadable_files_are_refused_by_name() {
     assert!(matches!(error(Path::new("no-such-file.csv")), MeasuredError::Unreadable { .. }));
     let path = std::env::temp_dir().join(format!("piola-fitting-{}.csv", std::process::id()));
     std::fs::write(&path, b"mode,stretch,stress\nplanar,\xff,1\n").unwrap_or_else(|error| panic!("{error}"));
-    assert!(matches!(error(&path), MeasuredError::NotText { line: 2, column: 8, byte: 0xff, .. }));
+    let bytes = error(&path);
+    assert!(matches!(bytes, MeasuredError::NotText { line: 2, column: 8, byte: 0xff, .. }));
+    let place = format!("{}:2:8: the file is not a text file: byte 0xff; valid: UTF-8 text", path.display());
+    assert_eq!(bytes.to_string(), place);
     let _ = std::fs::remove_file(&path);
 }
 

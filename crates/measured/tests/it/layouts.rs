@@ -198,7 +198,7 @@ fn a_size_that_is_given_twice_or_without_its_unit_is_refused_with_its_line() {
     let given = Measured::parse("flow.csv", "pressure_gradient,discharge\n1,2\n", FlowKind::Pipe, &given);
     assert_eq!(
         given.unwrap_err().to_string(),
-        "`--radius 2` is not accepted; valid: a positive length or angle with its unit, as 2mm or 2deg"
+        "`--radius 2` is not accepted; valid: a length from 1 nm to 1 km, or a positive angle, with its unit, as 2mm or 2deg"
     );
 }
 
