@@ -99,7 +99,7 @@ impl Attempt {
     /// By how much the step should be longer, for the last coefficient `aim`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn factor(&self, plan: &Plan, aim: f64) -> f64 {
-        let accurate = if 0.0 < self.ratio { (aim / self.ratio).powf(1.0 / 7.0) } else { f64::INFINITY };
+        let accurate = if 0.0 < self.ratio { inverse_seventh_root(self.ratio / aim) } else { f64::INFINITY };
         if !self.converged {
             return if self.hopeless { SAFETY * accurate } else { UNCONVERGED };
         }
@@ -352,7 +352,22 @@ fn above_noise<T: Real, F, W: Collocation<T, F>>(
     *noise
 }
 
+/// x^(−1/7) for x > 0, to 1e-4: as accurate as a length of steps need be. From a guess by the exponent, within 3 per cent, Newton's iteration
+/// z ← z (8 − x z⁷)/7 of the equation z⁻⁷ = x needs no division. It takes a third of the time of `powf`, and is the same on all machines.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn inverse_seventh_root(x: f64) -> f64 {
+    /// 8/7 of the bits of one, less what makes the largest error of the guess least.
+    const GUESS: u64 = 0x4911_6924_9249_2492;
+    let mut z = f64::from_bits(GUESS - x.to_bits() / 7);
+    for _ in 0..2 {
+        let square = z * z;
+        z = z * (8.0 - (x * z) * (square * square * square)) * (1.0 / 7.0);
+    }
+    z
+}
+
 /// The step that would have been the best one, and the next one to try: as the best step changed, it will change.
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn next_step(h: f64, factor: f64, best_before: f64) -> (f64, f64) {
     let best = h.abs() * factor;
     let trend = if 0.0 < best_before { (best / best_before).clamp(TREND.0, TREND.1) } else { 1.0 };

@@ -6,7 +6,8 @@
 //! ```
 //!
 //! The eight stages are the lanes of one number: a sweep evaluates the field once, in lanes, for all of them. Sweeps start
-//! from the polynomial of the step before, continued, and end where the next one would change less than the tolerance.
+//! from the polynomial of the step before, continued, and end where the next one would change less than the tolerance. Sums and
+//! differences of stages that mirror one another about the middle of the step need half the products.
 //!
 //! # Step size
 //! The accelerations of a step are a polynomial `Σ γ_k P_k` of degree seven. Its last coefficient tells how well a degree of
@@ -50,9 +51,9 @@ use crate::{Checkpoint, IntegratorsError, Report, SecondOrder, State, Tolerance}
 /// Global error O(h¹⁶), until rounding; the state is summed with compensation.
 ///
 /// # Cost
-/// Four to nine sweeps a step, each an evaluation in lanes and the products of the tableau, 12 to 18 ns a coordinate. Both alone take 0.8 of a run
-/// of the double pendulum, and half of one on Kepler's ellipse of e = 0.9 and in Hénon and Heiles' potential: no run can be faster than that
-/// part. The example `floors` measures them, and the page *Integration* of the measurements has the table.
+/// Four to nine sweeps a step, each an evaluation in lanes and the products of the tableau, which sums and differences of mirrored stages
+/// halve. A field of up to four coordinates should state their number in [`FREEDOM`](SecondOrder::FREEDOM): its sweeps are unrolled. The example
+/// `floors` measures what evaluations and products take alone, and the page *Integration* of the measurements has the table.
 ///
 /// # Example
 /// ```

@@ -12,8 +12,8 @@
 use piola_numerics::{Lanes, Real};
 
 use super::tableau::{
-    EVEN_COEFFICIENTS, Half, LAST, NODES, ODD_COEFFICIENTS, OFFSETS, POSITION_OF_DIFFERENCES, POSITION_OF_SUMS,
-    POSITION_WEIGHTS, Stages, VELOCITY_OF_DIFFERENCES, VELOCITY_OF_SUMS, WEIGHTS, mirrored,
+    FIRST_POWERS, Half, LAST, NODES, OFFSETS, POSITION_OF_DIFFERENCES, POSITION_OF_SUMS, POSITION_WEIGHTS, POWERS,
+    Stages, VELOCITY_OF_DIFFERENCES, VELOCITY_OF_SUMS, WEIGHTS, mirrored,
 };
 use crate::collocation::{Attempt, Collocation};
 use crate::state::{check_finite, compensated_add};
@@ -52,20 +52,6 @@ pub(super) struct Workspace {
     pub(super) previous_step: f64,
     /// The factor of contraction that the next step is expected to have.
     expected: f64,
-    continuation: Continuation,
-}
-
-/// Legendre's polynomials of a step at the nodes of the next.
-#[derive(Clone, Debug)]
-struct Continuation {
-    ratio: f64,
-    polynomials: [Stages; 8],
-}
-
-impl Default for Continuation {
-    fn default() -> Self {
-        Self { ratio: f64::NAN, polynomials: [ZERO; 8] }
-    }
 }
 
 const ZERO: Stages = Lanes([0.0; 8]);
@@ -84,11 +70,16 @@ fn sums_and_differences(x: Stages) -> (Half, Half) {
     (first + last, first - last)
 }
 
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn joined(first: Half, last: Half) -> Stages {
+    let ([a, b, c, d], [e, f, g, h]) = (first.0, last.0);
+    Lanes([a, b, c, d, e, f, g, h])
+}
+
 /// base + (same ± opposite): stages of what is the same for mirrored ones and what is opposite.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn joined(base: f64, same: Half, opposite: Half) -> Stages {
-    let (first, last) = ((Lanes::splat(base) + (same + opposite)).0, (Lanes::splat(base) + (same - opposite)).0);
-    Lanes([first[0], first[1], first[2], first[3], last[0], last[1], last[2], last[3]])
+fn mirrored_about(base: f64, same: Half, opposite: Half) -> Stages {
+    joined(Lanes::splat(base) + (same + opposite), Lanes::splat(base) + (same - opposite))
 }
 
 /// The sum of the lanes, in pairs.
@@ -126,44 +117,29 @@ fn last_coefficient(accelerations: &[Stages], size: f64) -> f64 {
     if 0.0 < size { last / (0.125 * size) } else { 0.0 }
 }
 
-/// `P_(k+1) = ((2k + 1) x P_k − k P_(k−1))/(k + 1)`
+/// A polynomial of degree seven, by its even and its odd powers.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn next_polynomial(k: f64, x: Stages, now: Stages, before: Stages) -> Stages {
-    Lanes::splat((2.0 * k + 1.0) / (k + 1.0)) * x * now - Lanes::splat(k / (k + 1.0)) * before
+fn polynomial(even: Half, odd: Half, x: Half) -> Half {
+    let square = x * x;
+    let even = [
+        Lanes::splat(even.0[0]) + Lanes::splat(even.0[1]) * square,
+        Lanes::splat(even.0[2]) + Lanes::splat(even.0[3]) * square,
+    ];
+    let odd = [
+        Lanes::splat(odd.0[0]) + Lanes::splat(odd.0[1]) * square,
+        Lanes::splat(odd.0[2]) + Lanes::splat(odd.0[3]) * square,
+    ];
+    let fourth = square * square;
+    (even[0] + even[1] * fourth) + (odd[0] + odd[1] * fourth) * x
 }
 
-impl Continuation {
-    /// For a next step of this length in lengths of the last one.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn to(&mut self, ratio: f64) {
-        if self.ratio.to_bits() == ratio.to_bits() {
-            return;
-        }
-        self.ratio = ratio;
-        // One after the other, not in a loop: the compiler makes gathers and scatters of one, which cost more than the sweeps.
-        let (one, x) = (Lanes::splat(1.0), Lanes::splat(1.0) + Lanes::splat(2.0 * ratio) * NODES);
-        let second = next_polynomial(1.0, x, x, one);
-        self.polynomials = [one, x, second, ZERO, ZERO, ZERO, ZERO, ZERO];
-        if ratio.abs() <= FAR {
-            let third = next_polynomial(2.0, x, second, x);
-            let fourth = next_polynomial(3.0, x, third, second);
-            let fifth = next_polynomial(4.0, x, fourth, third);
-            let sixth = next_polynomial(5.0, x, fifth, fourth);
-            let seventh = next_polynomial(6.0, x, sixth, fifth);
-            self.polynomials = [one, x, second, third, fourth, fifth, sixth, seventh];
-        }
-    }
-
-    /// The accelerations of the last step, continued to the stages of the next.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn of(&self, previous: Stages) -> Stages {
-        let (sums, differences) = sums_and_differences(previous);
-        let (even, odd) = (times(&EVEN_COEFFICIENTS, sums), times(&ODD_COEFFICIENTS, differences));
-        let pair = |k: usize| {
-            self.polynomials[2 * k] * Lanes::splat(even.0[k]) + self.polynomials[2 * k + 1] * Lanes::splat(odd.0[k])
-        };
-        (pair(0) + pair(2)) + (pair(1) + pair(3))
-    }
+/// The accelerations of a step, by the powers of their polynomial, continued to the stages of the next. Times are from the middle of that step, in
+/// halves of it: even powers come from sums, odd ones from differences.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn continued(previous: Stages, powers: &[[Half; 4]; 2], [first, last]: [Half; 2]) -> Stages {
+    let (sums, differences) = sums_and_differences(previous);
+    let (even, odd) = (times(&powers[0], sums), times(&powers[1], differences));
+    joined(polynomial(even, odd, first), polynomial(even, odd, last))
 }
 
 impl Workspace {
@@ -244,14 +220,14 @@ fn sweep<F: SecondOrder<Stages>>(
             if F::VELOCITY_DEPENDENT {
                 let mean = v_carry[k] + half * gained;
                 let same = Lanes::splat(mean) + times(&velocities_of_differences, differences);
-                velocities[k] = joined(v[k], same, times(&velocities_of_sums, sums));
+                velocities[k] = mirrored_about(v[k], same, times(&velocities_of_sums, sums));
             }
             let moved = h * (v[k] + v_carry[k]);
             let middle = (q_carry[k] + 0.5 * moved) + half_square * sum(POSITION_WEIGHTS * differences);
             let same = times(&positions_of_sums, sums) + Lanes::splat(middle);
             let turned = Lanes::splat(moved) * OFFSETS + times(&positions_of_differences, differences);
             let opposite = turned + Lanes::splat(half_square * gained) * OFFSETS;
-            positions[k] = joined(q[k], same, opposite);
+            positions[k] = mirrored_about(q[k], same, opposite);
         }
         attempt.sweeps += 1;
         *evaluations += 8;
@@ -260,14 +236,19 @@ fn sweep<F: SecondOrder<Stages>>(
         let (mut change, mut all) = (ZERO, ZERO);
         for k in 0..n {
             change += (swept[k] - accelerations[k]).abs();
-            all += swept[k].abs();
             accelerations[k] = swept[k];
         }
-        size = sum_of_all(all);
-        if !size.is_finite() {
+        // Later sweeps hardly change it.
+        if attempt.sweeps <= 2 {
+            for acceleration in &*accelerations {
+                all += acceleration.abs();
+            }
+            size = sum_of_all(all);
+        }
+        let change = if 0.0 < size { sum_of_all(change) / size } else { sum_of_all(change) };
+        if !change.is_finite() {
             return Ok(attempt);
         }
-        let change = if 0.0 < size { sum_of_all(change) / size } else { 0.0 };
         let fell = change / attempt.change;
         // Near rounding the changes fall no more, whatever the step.
         if attempt.change.is_finite() && MEASURABLE < change {
@@ -305,10 +286,19 @@ impl Workspace {
             accelerations.fill(ZERO);
             return;
         }
-        self.continuation.to(h / self.previous_step);
+        let ratio = h / self.previous_step;
+        let (first, last) = halves(NODES);
+        let times = [first, last].map(|node| Lanes::splat(1.0) + Lanes::splat(2.0 * ratio) * node);
         let n = accelerations.len();
-        for (acceleration, &previous) in accelerations.iter_mut().zip(&self.previous[..n]) {
-            *acceleration = self.continuation.of(previous);
+        let pairs = accelerations.iter_mut().zip(&self.previous[..n]);
+        if ratio.abs() <= FAR {
+            for (acceleration, &previous) in pairs {
+                *acceleration = continued(previous, &POWERS, times);
+            }
+        } else {
+            for (acceleration, &previous) in pairs {
+                *acceleration = continued(previous, &FIRST_POWERS, times);
+            }
         }
     }
 
@@ -330,6 +320,8 @@ impl Workspace {
         };
         let attempt = sweep(field, step, coordinates, &mut self.expected, evaluations);
         self.accelerations[..N].copy_from_slice(&accelerations);
+        // Nobody reads this. But stores of whole stages make the compiler compute the sweep in whole vectors: without them a run takes a
+        // quarter longer.
         self.swept[..N].copy_from_slice(&swept);
         attempt
     }
@@ -397,16 +389,16 @@ impl<F: SecondOrder<Stages>> Collocation<f64, F> for Workspace {
             compensated_add(&mut q[k], &mut q_carry[k], h * mean + (h * h) * sum(POSITION_WEIGHTS * differences));
             compensated_add(&mut v[k], &mut v_carry[k], gained);
         }
-        check_finite("state", Some(state.time), &self.next)?;
-        core::mem::swap(&mut state.values, &mut self.next);
-        core::mem::swap(&mut state.carry, &mut self.next_carry);
+        check_finite("state", Some(state.time), &self.next[..2 * n])?;
+        state.values[..2 * n].copy_from_slice(&self.next[..2 * n]);
+        state.carry[..2 * n].copy_from_slice(&self.next_carry[..2 * n]);
         core::mem::swap(&mut self.accelerations, &mut self.previous);
         self.previous_step = h;
         Ok(())
     }
 
     fn check_rates(&self, t: f64) -> Result<(), IntegratorsError<F::Error>> {
-        check_finite("rate", Some(t), &self.swept)
+        check_finite("rate", Some(t), &self.accelerations)
     }
 
     fn state_at(&self, part: f64, out: &mut [f64]) {

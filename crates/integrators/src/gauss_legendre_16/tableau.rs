@@ -316,21 +316,29 @@ pub(super) const POSITION_OF_SUMS: [Half; 4] = {
 /// What differences give to the positions, opposite to both.
 pub(super) const POSITION_OF_DIFFERENCES: [Half; 4] = block(&POSITION, -1.0);
 
-/// Every second row of `LEGENDRE` from `first` on, by columns: coefficients of a polynomial from sums or differences of mirrored stages.
-const fn coefficients(first: usize) -> [Half; 4] {
+/// The coefficients of Legendre's polynomials of even degree, by even powers.
+const EVEN: [[f64; 4]; 4] =
+    [[1.0, 0.0, 0.0, 0.0], [-0.5, 1.5, 0.0, 0.0], [0.375, -3.75, 4.375, 0.0], [-0.3125, 6.5625, -19.6875, 14.4375]];
+/// Those of odd degree, by odd powers.
+const ODD: [[f64; 4]; 4] =
+    [[1.0, 0.0, 0.0, 0.0], [-1.5, 2.5, 0.0, 0.0], [1.875, -8.75, 7.875, 0.0], [-2.1875, 19.6875, -43.3125, 26.8125]];
+
+/// The powers of a polynomial of the first `degrees` degrees of one parity, by columns: from sums or differences of mirrored stages.
+const fn powers(legendre: &[[f64; 4]; 4], parity: usize, degrees: usize) -> [Half; 4] {
     let mut columns = [Lanes([0.0; 4]); 4];
     let mut k = 0;
-    while k < 16 {
-        columns[k % 4].0[k / 4] = LEGENDRE[first + 2 * (k / 4)].0[k % 4];
+    while k < 16 * degrees {
+        let (power, stage, degree) = (k % 4, k / 4 % 4, k / 16);
+        columns[stage].0[power] += legendre[degree][power] * LEGENDRE[2 * degree + parity].0[stage];
         k += 1;
     }
     columns
 }
 
-/// The even coefficients of a polynomial from sums.
-pub(super) const EVEN_COEFFICIENTS: [Half; 4] = coefficients(0);
-/// The odd ones from differences.
-pub(super) const ODD_COEFFICIENTS: [Half; 4] = coefficients(1);
+/// The even and the odd powers of the polynomial of degree seven.
+pub(super) const POWERS: [[Half; 4]; 2] = [powers(&EVEN, 0, 4), powers(&ODD, 1, 4)];
+/// Those of its first three terms.
+pub(super) const FIRST_POWERS: [[Half; 4]; 2] = [powers(&EVEN, 0, 2), powers(&ODD, 1, 1)];
 /// The row of the last coefficient, for differences.
 pub(super) const LAST: Half = {
     let [a, b, c, d, ..] = LEGENDRE[7].0;
