@@ -25,6 +25,8 @@ mod shape;
 #[cfg(feature = "files")]
 mod source;
 pub mod units;
+#[cfg(feature = "files")]
+mod varied;
 pub mod words;
 
 #[cfg(feature = "files")]
@@ -39,3 +41,5 @@ pub use node::{Entry, Node, Value};
 pub use record::{Field, FieldValue, Parameter, Record};
 #[cfg(feature = "files")]
 pub use source::{LARGEST_SCENE, Place, Source};
+#[cfg(feature = "files")]
+pub use varied::Varied;

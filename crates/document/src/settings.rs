@@ -8,7 +8,7 @@ fn wrong<T>(mistake: Mistake) -> Result<T, Box<Mistake>> {
 }
 
 /// One step of a path.
-enum Step {
+pub(crate) enum Step {
     /// `.key`, or the name of an entry of a list.
     Key(String, Place),
     /// `[i]`.
@@ -41,7 +41,7 @@ pub(crate) fn apply(root: &mut Node, source: &Source, id: usize) -> Result<(), B
     place_node(root, &steps, Node { place, value: node.value })
 }
 
-fn steps(path: &str, id: usize) -> Result<Vec<Step>, Box<Mistake>> {
+pub(crate) fn steps(path: &str, id: usize) -> Result<Vec<Step>, Box<Mistake>> {
     let bad =
         |span: core::ops::Range<usize>, what: &str| {
             wrong(Mistake::new(Place { source: id, span }, what.to_string()).valid(

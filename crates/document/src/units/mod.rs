@@ -17,7 +17,7 @@
 
 mod dimension;
 mod names;
-mod quantity;
+pub(crate) mod quantity;
 mod spelling;
 mod unit;
 

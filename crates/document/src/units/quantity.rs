@@ -98,7 +98,7 @@ fn unit(text: &str) -> Result<Option<(Unit, String)>, UnitError> {
     if text.is_empty() { Ok(None) } else { Ok(Some((text.parse()?, text.to_string()))) }
 }
 
-fn convert(number: f64, unit: Option<&(Unit, String)>) -> Result<f64, UnitError> {
+pub(crate) fn convert(number: f64, unit: Option<&(Unit, String)>) -> Result<f64, UnitError> {
     let Some((unit, text)) = unit else { return Ok(number) };
     let value = unit.to_si(number);
     // A product that vanishes or overflows although the number does not has left the range of doubles.

@@ -4,3 +4,4 @@ mod includes;
 mod places;
 mod records;
 mod units;
+mod varied;
