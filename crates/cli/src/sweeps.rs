@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use piola_charts::Folder;
 use piola_ensemble::{
-    Ensemble, EnsembleError, Options, Portion, Ranks, Results, agree, compute_across, predicted_seconds,
+    Ensemble, EnsembleError, Options, Portion, Ranks, Results, agree, compute_across, predicted_cost,
 };
 use piola_scene::{Document, SceneError};
 
@@ -142,13 +142,15 @@ fn prepare(
     }
     let cores = options.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1)
         * ranks.count();
-    if let Some(seconds) = predicted_seconds(&ensemble, options.part)?
+    let cost = predicted_cost(&ensemble, options.part)?;
+    if let Some(seconds) = cost.seconds
         && !arguments.yes
         && MOST_SECONDS < seconds / cores as f64
     {
         let argument = format!("a sweep of about {:.1} days on {cores} cores", seconds / cores as f64 / MOST_SECONDS);
         return Err(EnsembleError::Argument { argument, valid: "less than a day, or --yes" });
     }
+    note(&cost.to_string());
     let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let beside: PathBuf = Path::new("out").join(format!("sweep-{name}"));
     let folder = Folder::prepare(arguments.out.as_ref().unwrap_or(&beside))?;

@@ -34,22 +34,29 @@ impl<'c> Crew<'c> {
         Self { ensemble, stop, sender, receiver, unfinished: 0 }
     }
 
+    pub(crate) const fn at_once(&self) -> usize {
+        self.ensemble.at_once()
+    }
+
     pub(crate) const fn unfinished(&self) -> usize {
         self.unfinished
     }
 
-    pub(crate) fn take(&mut self, scope: &rayon::Scope<'c>, member: u64) {
+    /// Takes members, of which as many as are best computed together go to one thread.
+    pub(crate) fn take(&mut self, scope: &rayon::Scope<'c>, members: &[u64]) {
         let (ensemble, stop) = (self.ensemble, self.stop);
-        let report = Report { member: None, sender: self.sender.clone() };
-        self.unfinished += 1;
-        scope.spawn(move |_| {
-            // All of it belongs to the thread, not only the place of the member.
-            let mut report = report;
-            let stopped = || stop.load(Ordering::Relaxed);
-            if !stopped() {
-                report.member = ensemble.member_until(member, stopped);
-            }
-        });
+        for members in members.chunks(ensemble.at_once()) {
+            let report = || Report { member: None, sender: self.sender.clone() };
+            let (members, reports): (Vec<u64>, Vec<Report>) = members.iter().map(|&member| (member, report())).unzip();
+            self.unfinished += members.len();
+            scope.spawn(move |_| {
+                let found = ensemble.together(&members, || stop.load(Ordering::Relaxed));
+                for (mut report, member) in reports.into_iter().zip(found) {
+                    report.member = member;
+                    drop(report);
+                }
+            });
+        }
     }
 
     /// A member that is finished, after no more than `wait`.

@@ -1,8 +1,9 @@
 //! An ensemble: a scene and what differs between its members.
 
-use piola_scene::{Document, SceneFile};
+use piola_scene::run::TOGETHER;
+use piola_scene::{Document, SceneFile, VariedScene};
 
-use crate::member::{Member, columns, compute};
+use crate::member::{Member, columns, compute, compute_together, may_go_together};
 use crate::{EnsembleError, Random, ValueRange};
 
 /// The largest number of members.
@@ -42,6 +43,9 @@ pub struct Ensemble {
     repeats: u64,
     seed: u64,
     columns: Vec<String>,
+    /// The scene, read once; none where that does not serve for what is varied.
+    varied: Option<VariedScene>,
+    together: bool,
 }
 
 impl Ensemble {
@@ -70,10 +74,16 @@ impl Ensemble {
         if members < 1.0 || (MOST_MEMBERS as f64) < members {
             return Err(EnsembleError::TooMany { members, most: MOST_MEMBERS });
         }
-        let mut ensemble = Self { scene, ranges, random, repeats, seed, columns: Vec::new() };
+        let mut ensemble =
+            Self { scene, ranges, random, repeats, seed, columns: Vec::new(), varied: None, together: false };
         let first =
             ensemble.scene(0).map_err(|error| EnsembleError::Invalid { member: 0, cause: error.to_string() })?;
         ensemble.columns = columns(&first);
+        ensemble.together = may_go_together(&first);
+        let ranges = ensemble.ranges.iter().map(|range| (range.path.as_str(), range.unit.as_str()));
+        let random = ensemble.random.iter().map(|random| (random.path.as_str(), random.unit.as_str()));
+        let paths: Vec<_> = ranges.chain(random).collect();
+        ensemble.varied = VariedScene::new(ensemble.document(0), &paths);
         Ok(ensemble)
     }
 
@@ -123,6 +133,14 @@ impl Ensemble {
     /// # Errors
     /// [`EnsembleError::Scene`] with the mistakes of the scene.
     pub fn scene(&self, member: u64) -> Result<SceneFile, EnsembleError> {
+        match self.varied.as_ref().and_then(|varied| varied.scene(&self.settings(member))) {
+            Some(scene) => Ok(scene),
+            None => Ok(SceneFile::from_document(&self.document(member))?),
+        }
+    }
+
+    /// The document of a member.
+    fn document(&self, member: u64) -> Document {
         let mut document = self.scene.clone();
         for (range, index) in self.ranges.iter().zip(self.indices(member)) {
             document.set(&range.setting(index));
@@ -130,7 +148,7 @@ impl Ensemble {
         for (random, which) in self.random.iter().zip(0..) {
             document.set(&random.setting(self.seed, which, member));
         }
-        Ok(SceneFile::from_document(&document)?)
+        document
     }
 
     /// Computes a member.
@@ -146,6 +164,59 @@ impl Ensemble {
             Ok(scene) => compute(member, &scene, &self.columns, &stop),
             Err(error) => Some(Member::failed(member, &error.to_string(), self.columns.len())),
         }
+    }
+
+    /// How many members are best computed [together](Self::together): 1 unless they are bodies that attract each other, by a method of fixed
+    /// steps.
+    #[must_use]
+    pub const fn at_once(&self) -> usize {
+        if self.together { TOGETHER } else { 1 }
+    }
+
+    /// Computes members until `stop` says so; then those that are not finished are none. As many as [`at_once`](Self::at_once) tells are
+    /// integrated together, each in a lane of a vector of numbers, if all take the same steps. A member's numbers are those of
+    /// [`member`](Self::member), to the last bit.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_ensemble::Ensemble;
+    /// use piola_scene::Document;
+    /// let scene = Document::parse("pair.toml", "
+    ///     [gravity]
+    ///     [[body]]
+    ///     name = 'right'
+    ///     gm = 1.0
+    ///     position = [1, 0, 0]
+    ///     velocity = [0, 0.5, 0]
+    ///     [[body]]
+    ///     name = 'left'
+    ///     gm = 1.0
+    ///     position = [-1, 0, 0]
+    ///     velocity = [0, -0.5, 0]
+    ///     [time]
+    ///     end = 6.0
+    ///     [integrator]
+    ///     method = 'composition-8'
+    ///     step = 0.1
+    /// ");
+    /// let ensemble = Ensemble::new(scene, vec!["body.left.velocity[1]=-0.5:-0.4:6".parse()?], Vec::new(), 1, 0)?;
+    /// let together = ensemble.together(&[0, 1, 2, 3, 4, 5], || false);
+    /// assert_eq!((ensemble.at_once(), together[5].as_ref()), (8, Some(&ensemble.member(5))));
+    /// # Ok::<(), piola_ensemble::EnsembleError>(())
+    /// ```
+    #[must_use]
+    pub fn together(&self, members: &[u64], stop: impl Fn() -> bool) -> Vec<Option<Member>> {
+        let of = |chunk: &[u64]| -> Vec<Option<Member>> {
+            let alone = || chunk.iter().map(|&member| if stop() { None } else { self.member_until(member, &stop) });
+            if !self.together || chunk.len() < 2 {
+                return alone().collect();
+            }
+            let scene = |&member: &u64| self.scene(member).ok().map(|scene| (member, scene));
+            let scenes: Option<Vec<(u64, SceneFile)>> = chunk.iter().map(scene).collect();
+            let found = scenes.and_then(|scenes| compute_together(&scenes, &self.columns, &stop));
+            found.map_or_else(|| alone().collect(), |found| found.into_iter().map(Some).collect())
+        };
+        members.chunks(self.at_once()).flat_map(of).collect()
     }
 
     /// The scene, the variations, the seed and the version as a text of one line: equal ensembles have equal texts.

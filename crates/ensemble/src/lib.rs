@@ -21,5 +21,5 @@ pub use member::Member;
 pub use portion::Portion;
 pub use ranks::{OneProcess, Ranks, agree};
 pub use results::{Results, Statistics};
-pub use run::{Computed, Options, compute, compute_across, predicted_seconds};
+pub use run::{Computed, Cost, Options, compute, compute_across, predicted_cost};
 pub use variation::{Law, Random, ValueRange};

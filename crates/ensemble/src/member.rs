@@ -2,9 +2,11 @@
 
 use core::ops::ControlFlow;
 
+use piola_scene::model::System;
+use piola_scene::plan::Method;
 use piola_scene::run::{self, Outcome, Run};
 use piola_scene::studies::{self, StudyPlan};
-use piola_scene::{Plan, SceneFile};
+use piola_scene::{Plan, Scene, SceneFile};
 use serde_json::Value;
 
 /// The numbers of a member.
@@ -52,7 +54,7 @@ pub(crate) fn columns(scene: &SceneFile) -> Vec<String> {
     match scene {
         SceneFile::Motion(scene) => {
             // The names stand in the record from the first step on.
-            let run = run::run(scene, &Plan::of(scene), |_| ControlFlow::Break(()));
+            let run = run::run(scene, &Plan::brief(scene), |_| ControlFlow::Break(()));
             motion(&run).into_iter().map(|(name, _)| name).collect()
         }
         SceneFile::Study(study) => of_study(study, &|| false).1.into_iter().map(|(name, _)| name).collect(),
@@ -125,19 +127,60 @@ fn going(stop: &dyn Fn() -> bool) -> ControlFlow<()> {
 
 /// Runs a scene and keeps its numbers; none if it was stopped.
 pub(crate) fn compute(member: u64, scene: &SceneFile, columns: &[String], stop: &dyn Fn() -> bool) -> Option<Member> {
-    let (outcome, named) = match scene {
+    match scene {
         SceneFile::Motion(scene) => {
-            let run = run::run(scene, &Plan::of(scene), |_| going(stop));
+            let run = run::run(scene, &Plan::brief(scene), |_| going(stop));
             let named = motion(&run);
-            (run.outcome, named)
+            kept(member, run.outcome, &named, columns)
         }
-        SceneFile::Study(study) => of_study(study, stop),
+        SceneFile::Study(study) => {
+            let (outcome, named) = of_study(study, stop);
+            kept(member, outcome, &named, columns)
+        }
+    }
+}
+
+/// Whether scenes of an ensemble may go together: bodies that attract each other, by a method of fixed steps.
+pub(crate) fn may_go_together(scene: &SceneFile) -> bool {
+    let SceneFile::Motion(scene) = scene else { return false };
+    matches!(scene.system, System::Gravitation(_)) && matches!(Plan::brief(scene).method, Method::Composition { .. })
+}
+
+fn motion_of((_, scene): &(u64, SceneFile)) -> Option<&Scene> {
+    match scene {
+        SceneFile::Motion(scene) => Some(scene),
+        SceneFile::Study(_) => None,
+    }
+}
+
+/// [`compute`] of several scenes at once; none if they cannot go together, or one fails or was stopped.
+pub(crate) fn compute_together(
+    scenes: &[(u64, SceneFile)],
+    columns: &[String],
+    stop: &dyn Fn() -> bool,
+) -> Option<Vec<Member>> {
+    let motions: Vec<&Scene> = scenes.iter().map(motion_of).collect::<Option<_>>()?;
+    let plans: Vec<Plan> = motions.iter().map(|scene| Plan::brief(scene)).collect();
+    let runs = run::run_together(&motions, &plans, stop)?;
+    scenes
+        .iter()
+        .zip(runs)
+        .map(|((member, _), run)| kept(*member, run.outcome.clone(), &motion(&run), columns))
+        .collect()
+}
+
+/// The numbers of a member, if it was not stopped.
+fn kept(member: u64, outcome: Outcome, named: &[(String, f64)], columns: &[String]) -> Option<Member> {
+    // Mostly each stands where the first member has it.
+    let of = |(place, name): (usize, &String)| {
+        let there = named.get(place).filter(|(other, _)| other == name);
+        let found = there.or_else(|| named.iter().find(|(other, _)| other == name));
+        found.map_or(f64::NAN, |(_, value)| *value)
     };
-    let of = |name: &String| named.iter().find(|(other, _)| other == name).map_or(f64::NAN, |(_, value)| *value);
     let failure = match outcome {
         Outcome::Completed => None,
         Outcome::Interrupted => return None,
         Outcome::Failed(why) => Some(why.lines().next().unwrap_or_default().to_owned()),
     };
-    Some(Member { member, failure, values: columns.iter().map(of).collect() })
+    Some(Member { member, failure, values: columns.iter().enumerate().map(of).collect() })
 }

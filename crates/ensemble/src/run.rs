@@ -189,10 +189,14 @@ impl Lead {
         scope: &rayon::Scope<'c>,
         observer: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) {
+        let at_once = crew.at_once();
         loop {
-            while !self.stopped && crew.unfinished() < QUEUE * threads && self.next < self.left.len() {
-                crew.take(scope, self.left[self.next]);
-                self.next += 1;
+            while !self.stopped && crew.unfinished() < QUEUE * threads * at_once && self.next < self.left.len() {
+                let rest = &self.left[self.next..];
+                // Towards the end fewer at once, so that no thread is without any.
+                let taken = at_once.min(rest.len().div_ceil(threads));
+                crew.take(scope, &rest[..taken]);
+                self.next += taken;
             }
             if crew.unfinished() == 0 && self.working.is_empty() {
                 return;
@@ -292,7 +296,7 @@ fn follow<'c>(
     let (mut members, mut computed) = (Vec::new(), 0);
     loop {
         // Short members are finished by the hundred between two messages: the more, the more are wanted at once.
-        let wanted = (2 * (threads + members.len())).saturating_sub(crew.unfinished()) as u64;
+        let wanted = (2 * (threads * crew.at_once() + members.len())).saturating_sub(crew.unfinished()) as u64;
         computed += members.len() as u64;
         let unfinished = crew.unfinished() as u64;
         let finished = Request::Finished { members: core::mem::take(&mut members), unfinished, wanted };
@@ -302,7 +306,7 @@ fn follow<'c>(
             say(ranks, 0, &Request::Refused(error.to_string()));
         })?;
         match reply {
-            Reply::Take(taken) => taken.into_iter().for_each(|member| crew.take(scope, member)),
+            Reply::Take(taken) => crew.take(scope, &taken),
             Reply::Stop => {
                 crew.stop();
                 while 0 < crew.unfinished() {
@@ -319,20 +323,73 @@ fn follow<'c>(
         let begun = Instant::now();
         loop {
             members.extend(crew.finished(PAUSE));
-            if LATEST <= begun.elapsed() || (crew.unfinished() < threads && !members.is_empty()) {
+            if LATEST <= begun.elapsed() || (crew.unfinished() < threads * crew.at_once() && !members.is_empty()) {
                 break;
             }
         }
     }
 }
 
-/// About how many seconds of one core the members of a part take, by a trial of the first member.
+/// What the members of a part will cost.
+///
+/// # Example
+/// See [`predicted_cost`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Cost {
+    /// The members.
+    pub members: u64,
+    /// Time on one core, s, about; none of studies.
+    pub seconds: Option<f64>,
+    /// The table of members, bytes, about.
+    pub bytes: f64,
+}
+
+/// What the members of a part will cost, by a trial of the first member.
 ///
 /// # Errors
 /// [`EnsembleError::Invalid`] when the first member fails at its start.
-pub fn predicted_seconds(ensemble: &Ensemble, part: Portion) -> Result<Option<f64>, EnsembleError> {
-    let SceneFile::Motion(scene) = ensemble.scene(0)? else { return Ok(None) };
-    let trial = run::trial(&scene, &piola_scene::Plan::of(&scene));
-    let trial = trial.map_err(|cause| EnsembleError::Invalid { member: 0, cause })?;
-    Ok(Some(trial.seconds * ensemble.members() as f64 / part.parts as f64))
+///
+/// # Example
+/// ```
+/// use piola_ensemble::{Ensemble, Portion, predicted_cost};
+/// use piola_scene::Document;
+/// let scene = Document::parse("orbit.toml", "
+///     [central]
+///     gm = 1.0
+///     [[body]]
+///     name = 'comet'
+///     semi_major_axis = 1.0
+///     eccentricity = 0.5
+///     [time]
+///     revolutions = 1
+/// ");
+/// let ensemble = Ensemble::new(scene, vec!["body.comet.semi_major_axis=1:4:1000".parse()?], Vec::new(), 1, 0)?;
+/// let cost = predicted_cost(&ensemble, "1/4".parse()?)?;
+/// assert_eq!(cost.members, 250);
+/// assert!(cost.to_string().starts_with("250 members, about "));
+/// # Ok::<(), piola_ensemble::EnsembleError>(())
+/// ```
+pub fn predicted_cost(ensemble: &Ensemble, part: Portion) -> Result<Cost, EnsembleError> {
+    /// Of a number in the table.
+    const BYTES: f64 = 20.0;
+    let members = (ensemble.members() + part.parts - part.number) / part.parts;
+    let columns = 1 + ensemble.varied().len() + ensemble.columns().len();
+    let cost = Cost { members, seconds: None, bytes: BYTES * columns as f64 * members as f64 };
+    let begun = Instant::now();
+    let SceneFile::Motion(scene) = ensemble.scene(0)? else { return Ok(cost) };
+    let plan = piola_scene::Plan::brief(&scene);
+    let building = begun.elapsed().as_secs_f64();
+    let trial = run::trial(&scene, &plan).map_err(|cause| EnsembleError::Invalid { member: 0, cause })?;
+    Ok(Cost { seconds: Some((building + trial.seconds) * members as f64), ..cost })
+}
+
+impl core::fmt::Display for Cost {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "{} member{}", self.members, if self.members == 1 { "" } else { "s" })?;
+        if let Some(seconds) = self.seconds {
+            write!(f, ", about {} of one core", run::duration(seconds))?;
+        }
+        write!(f, ", {:.1e} bytes of table", self.bytes)
+    }
 }

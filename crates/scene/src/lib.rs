@@ -19,6 +19,7 @@ pub mod plan;
 pub mod run;
 mod scene_file;
 pub mod studies;
+mod varied_scene;
 
 pub use error::{CheckpointError, SceneError};
 pub use model::Scene;
@@ -27,3 +28,4 @@ pub use piola_schema as schema;
 pub use plan::Plan;
 pub use scene_file::SceneFile;
 pub use studies::Study;
+pub use varied_scene::VariedScene;

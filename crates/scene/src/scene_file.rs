@@ -6,6 +6,7 @@ use piola_document::Document;
 
 use crate::model::Builder;
 use crate::schema::SCENE;
+use crate::varied_scene::built;
 use crate::{Scene, SceneError, Study};
 
 /// A checked scene file: a motion or a study.
@@ -47,13 +48,7 @@ impl SceneFile {
     pub fn from_document(document: &Document) -> Result<Self, SceneError> {
         let (record, mistakes) = document.records(&SCENE);
         let mut builder = Builder::new(document, mistakes);
-        // One that has no kind, or several, is answered as a motion is.
-        let study = Study::kind(&record).is_some();
-        let built = if study {
-            builder.study(&record).map(Self::Study)
-        } else {
-            builder.scene(&record).map(|scene| Self::Motion(Box::new(scene)))
-        };
+        let built = built(&mut builder, &record);
         builder.finish(built)
     }
 }

@@ -47,6 +47,8 @@ fn a_sweep_that_is_killed_goes_on_and_writes_the_same_bytes() {
     let whole = folder.sweep(&[ANGLES.as_slice(), &["--out", "whole"]].concat());
     assert_eq!(whole.0, Some(0), "{}{}", whole.1, whole.2);
     assert!(whole.1.contains("300 members of"), "{}", whole.1);
+    let cost = whole.2.lines().find(|line| line.contains("300 members, about")).unwrap_or_default();
+    assert!(cost.contains("of one core") && cost.ends_with("bytes of table"), "told before it runs: {}", whole.2);
     let cut = [ANGLES.as_slice(), &["--out", "cut", "--threads", "1"]].concat();
     let mut child = folder.command(&cut).spawn().unwrap_or_else(|error| panic!("{error}"));
     let journal = folder.0.join("cut/members-1-of-1.journal");

@@ -2,6 +2,7 @@
 
 mod journal;
 mod laws;
+mod once;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod ranks;

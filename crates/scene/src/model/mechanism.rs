@@ -40,8 +40,13 @@ impl Builder<'_> {
         if !self.independent(scene, joints, &mechanism) {
             return None;
         }
-        let surroundings = Surroundings::of(self, scene, &mechanism);
-        let (forces, constraints) = (self.forces(scene, &surroundings), self.constraints(scene, &surroundings));
+        let moves_freely = scene.records("force").is_empty() && scene.records("constraint").is_empty();
+        let (forces, constraints) = if moves_freely && self.is_kept() {
+            (Some(Vec::new()), Some(Vec::new()))
+        } else {
+            let surroundings = Surroundings::of(self, scene, &mechanism);
+            (self.forces(scene, &surroundings), self.constraints(scene, &surroundings))
+        };
         let reactions = scene.record("output").and_then(|output| output.flag("reactions")).unwrap_or(false);
         let questions = self.mechanism_questions(scene)?;
         let (forces, constraints) = (forces?, constraints?);

@@ -13,6 +13,7 @@ mod reference;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 pub use piola_simulation::joints::{JointTree, Mechanism, PartName};
 pub use piola_simulation::motion::{
@@ -100,7 +101,7 @@ impl Scene {
     /// ```
     pub fn from_document(document: &Document) -> Result<Self, SceneError> {
         let (record, mistakes) = document.records(&SCENE);
-        let mut builder = Builder { document, mistakes };
+        let mut builder = Builder::new(document, mistakes);
         let scene = builder.scene(&record);
         builder.finish(scene)
     }
@@ -116,11 +117,30 @@ impl Scene {
 pub(crate) struct Builder<'d> {
     pub(crate) document: &'d Document,
     mistakes: Vec<Mistake>,
+    /// What scenes of one document keep for each other.
+    kept: Option<&'d Kept>,
+}
+
+/// What scenes share that differ in numbers alone.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Kept {
+    /// The file of the reference, and its rows.
+    reference: OnceLock<(PathBuf, Vec<reference::Row>)>,
 }
 
 impl<'d> Builder<'d> {
     pub(crate) fn new(document: &'d Document, mistakes: Vec<Mistake>) -> Self {
-        Self { document, mistakes }
+        Self { document, mistakes, kept: None }
+    }
+
+    /// Builds a scene like one that had no mistakes, but for numbers.
+    pub(crate) fn keeping(self, kept: &'d Kept) -> Self {
+        Self { kept: Some(kept), ..self }
+    }
+
+    /// Whether a scene like this one, but for numbers, had no mistakes: names need not be looked at again.
+    pub(crate) const fn is_kept(&self) -> bool {
+        self.kept.is_some()
     }
 
     /// The model, if there is no mistake.

@@ -1,8 +1,9 @@
 //! References: tables of positions and closed forms.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::Read as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::{Builder, System, TimeSpan};
 use piola_document::{Record, words};
@@ -70,16 +71,28 @@ impl Builder<'_> {
             return self.refused(place, format!("[reference] has {what}"), "one of them");
         }
         // A missing file is found even when the system has mistakes.
-        let file = if table.has("file") { Some(self.reference_text(table)?) } else { None };
+        let known = self.kept.and_then(|kept| kept.reference.get());
+        let file = if table.has("file") && known.is_none() { Some(self.reference_text(table)?) } else { None };
         let system = system?;
         let names = system.names();
         let relative_to =
             if table.has("relative_to") { Some(self.find(table, "relative_to", "body", &names)?) } else { None };
         let label = |default: &str| table.text("label").unwrap_or(default).to_string();
-        Some(Some(match file {
-            Some((path, text)) => Reference {
-                label: label(&path.file_stem().unwrap_or_default().to_string_lossy()),
-                kind: ReferenceKind::Table(self.reference_table(table, path, &text, &names, time?)?),
+        let rows = match (known, file) {
+            (Some(known), _) => Some(Cow::Borrowed(known)),
+            (None, Some((path, text))) => {
+                let rows = self.rows(table, &path, &text, &names)?;
+                match self.kept {
+                    Some(kept) => Some(Cow::Borrowed(kept.reference.get_or_init(|| (path, rows)))),
+                    None => Some(Cow::Owned((path, rows))),
+                }
+            }
+            (None, None) => None,
+        };
+        Some(Some(match rows {
+            Some(rows) => Reference {
+                label: label(&rows.0.file_stem().unwrap_or_default().to_string_lossy()),
+                kind: ReferenceKind::Table(self.reference_table(table, &rows, time?)?),
                 relative_to,
             },
             None => Reference {
@@ -130,19 +143,21 @@ impl Builder<'_> {
         )
     }
 
+    fn rows(&mut self, table: &Record, path: &Path, text: &str, names: &[&str]) -> Option<Vec<Row>> {
+        rows(text, names)
+            .map_err(|(line, found, valid)| {
+                let shown = format!("line {line} of `{}`: {found}", path.display());
+                self.refuse(table.place_of("file"), shown, valid);
+            })
+            .ok()
+    }
+
     fn reference_table(
         &mut self,
         table: &Record,
-        path: PathBuf,
-        text: &str,
-        names: &[&str],
+        (path, rows): &(PathBuf, Vec<Row>),
         time: TimeSpan,
     ) -> Option<ReferenceTable> {
-        let rows = rows(text, names).map_err(|(line, found, valid)| {
-            let shown = format!("line {line} of `{}`: {found}", path.display());
-            self.refuse(table.place_of("file"), shown, valid);
-        });
-        let rows: Vec<(f64, usize, [f64; 3])> = rows.ok()?;
         let mut instants: Vec<f64> = rows.iter().map(|row| row.0).collect();
         time.sort(&mut instants);
         instants.dedup_by(|a, b| time.order(*a, *b).is_eq());
@@ -160,20 +175,22 @@ impl Builder<'_> {
             );
         }
         let mut positions = vec![Vec::new(); instants.len()];
-        for (t, body, position) in rows {
+        for &(t, body, position) in rows {
             if let Ok(instant) = instants.binary_search_by(|probe| time.order(*probe, t)) {
                 positions[instant].push((body, position));
             }
         }
         let (first, last) = (time.start.min(time.end), time.start.max(time.end));
         let clamped = instants.into_iter().map(|t| t.clamp(first, last)).collect();
-        Some(ReferenceTable { path, times: clamped, positions })
+        Some(ReferenceTable { path: path.clone(), times: clamped, positions })
     }
 }
 
+/// Time, body and position.
+pub(super) type Row = (f64, usize, [f64; 3]);
+
 /// The rows of a table, or the line of the first mistake with what was found and what would be valid.
-#[expect(clippy::type_complexity, reason = "a row is (time, body, position), a mistake (line, found, valid)")]
-fn rows(text: &str, names: &[&str]) -> Result<Vec<(f64, usize, [f64; 3])>, (u64, String, String)> {
+fn rows(text: &str, names: &[&str]) -> Result<Vec<Row>, (u64, String, String)> {
     let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
     let malformed = |error: &csv::Error| {
         let line = error.position().map_or(1, csv::Position::line);

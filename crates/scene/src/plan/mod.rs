@@ -115,13 +115,46 @@ impl Plan {
     /// The plan of a scene.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
+        let mut plan = Self::brief(scene);
+        plan.system = describe(&scene.system);
+        plan.folder = scene.output.folder.display().to_string();
+        plan.files.push("summary.json".to_string());
+        plan.system_items(scene);
+        plan.output_items(scene);
+        plan
+    }
+
+    /// The plan of a scene as [`run`](crate::run::run()) needs it: the method and the numbers, without what is computed and skipped and which files
+    /// are written.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_scene::{Document, Plan, Scene};
+    /// let document = Document::parse("orbit.toml", "
+    ///     [central]
+    ///     gm = 1.0
+    ///     [[body]]
+    ///     name = 'comet'
+    ///     semi_major_axis = 1.0
+    ///     eccentricity = 0.99
+    ///     [time]
+    ///     revolutions = 3
+    /// ");
+    /// let scene = Scene::from_document(&document)?;
+    /// let (brief, whole) = (Plan::brief(&scene), Plan::of(&scene));
+    /// assert_eq!((brief.method, brief.instants), (whole.method, whole.instants));
+    /// assert!(brief.computed.is_empty() && !whole.computed.is_empty());
+    /// # Ok::<(), piola_scene::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn brief(scene: &Scene) -> Self {
         let (method, reason) = choice::method(scene);
         let timetable = timetable(scene);
         let instants = timetable.instants();
         let steps = method.step().map(|step| steps(instants, step));
-        let mut plan = Self {
+        Self {
             name: scene.name.clone(),
-            system: describe(&scene.system),
+            system: String::new(),
             equations: equations(&scene.system),
             method,
             reason,
@@ -131,12 +164,9 @@ impl Plan {
             instants: instants.len(),
             computed: Vec::new(),
             skipped: Vec::new(),
-            folder: scene.output.folder.display().to_string(),
-            files: vec!["summary.json".to_string()],
-        };
-        plan.system_items(scene);
-        plan.output_items(scene);
-        plan
+            folder: String::new(),
+            files: Vec::new(),
+        }
     }
 
     fn compute(&mut self, what: &str, why: impl Into<String>) {

@@ -7,12 +7,13 @@ mod comparison;
 use core::ops::ControlFlow;
 use std::time::Instant;
 
-use piola_simulation::motion::{MotionRun, resume, simulate};
+use piola_simulation::motion::{MotionRun, resume, simulate, simulate_together};
 
 pub use answers::Answers;
 pub use checkpoints::Checkpoints;
 pub use comparison::{BodyErrors, ErrorAt, Errors};
 pub use piola_simulation::Outcome;
+pub use piola_simulation::motion::TOGETHER;
 pub use piola_simulation::motion::{
     Drift, DriftAt, Drifts, History, Invariants, MotionCheckpoint, PartReaction, Progress, Scaled,
 };
@@ -79,6 +80,56 @@ pub fn run(scene: &Scene, plan: &Plan, mut observer: impl FnMut(Progress) -> Con
         observer(progress)
     });
     answered(scene, recorded(scene, motion, begun), last, &mut observer)
+}
+
+/// [`run`] of up to eight scenes at once, one in each lane of a vector of numbers: each with the same numbers to the last bit, its wall time
+/// aside, which is that of all.
+///
+/// Nothing where they cannot go [together](simulate_together), where one of them fails, or where `stop` says so after a step: then
+/// each goes by itself.
+///
+/// # Example
+/// ```
+/// use piola_scene::{Document, Plan, Scene, run};
+/// let pair = |speed: f64| Document::parse("pair.toml", &format!("
+///     [gravity]
+///     [[body]]
+///     name = 'right'
+///     gm = 1.0
+///     position = [1, 0, 0]
+///     velocity = [0, {speed}, 0]
+///     [[body]]
+///     name = 'left'
+///     gm = 1.0
+///     position = [-1, 0, 0]
+///     velocity = [0, -{speed}, 0]
+///     [time]
+///     end = 6.0
+///     [integrator]
+///     method = 'composition-8'
+///     step = 0.1
+/// "));
+/// let (circle, ellipse) = (Scene::from_document(&pair(0.5))?, Scene::from_document(&pair(0.6))?);
+/// let plans = [Plan::of(&circle), Plan::of(&ellipse)];
+/// let both = run::run_together(&[&circle, &ellipse], &plans, &|| false).expect("they go together");
+/// let alone = run::run(&ellipse, &plans[1], |_| std::ops::ControlFlow::Continue(()));
+/// assert_eq!(both[1].history, alone.history);
+/// # Ok::<(), piola_scene::SceneError>(())
+/// ```
+#[must_use]
+pub fn run_together(scenes: &[&Scene], plans: &[Plan], stop: &dyn Fn() -> bool) -> Option<Vec<Run>> {
+    let begun = Instant::now();
+    let method = plans.first()?.method;
+    let timetable = plan::timetable(scenes.first()?);
+    let is_same = |(scene, plan): (&&Scene, &Plan)| plan.method == method && plan::timetable(scene) == timetable;
+    if scenes.len() != plans.len() || !scenes.iter().zip(plans).skip(1).all(is_same) {
+        return None;
+    }
+    let systems: Vec<&System> = scenes.iter().map(|scene| &scene.system).collect();
+    let motions = simulate_together(&systems, method, &timetable, stop)?;
+    let answered =
+        |(scene, motion)| answered(scene, recorded(scene, motion, begun), None, &mut |_| ControlFlow::Continue(()));
+    Some(scenes.iter().copied().zip(motions).map(answered).collect())
 }
 
 /// As [`run`], with checkpoints: the run begins at one if there is one, and leaves others in the folder of the results.
@@ -217,8 +268,14 @@ impl core::fmt::Display for Prediction {
     }
 }
 
-/// A duration as people say it.
-fn duration(seconds: f64) -> String {
+/// A duration, s, as people say it.
+///
+/// # Example
+/// ```
+/// assert_eq!(piola_scene::run::duration(10_800.0), "3 h");
+/// ```
+#[must_use]
+pub fn duration(seconds: f64) -> String {
     const DAY: f64 = 86_400.0;
     match seconds {
         s if s < 1.0 => format!("{:.0} ms", (1e3 * s).ceil()),

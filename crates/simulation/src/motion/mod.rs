@@ -20,6 +20,7 @@ mod phase;
 mod system;
 mod systems;
 mod timetable;
+mod together;
 
 use core::ops::ControlFlow;
 
@@ -30,6 +31,7 @@ pub use history::{Drift, DriftAt, Drifts, History, Invariants, PartReaction, Sca
 pub use method::Method;
 pub use system::{Central, Gravitation, MassPoint, NEWTONIAN_CONSTANT, Orbiter, PostNewtonian, System};
 pub use timetable::{TimeSpan, Timetable};
+pub use together::{TOGETHER, simulate_together};
 
 use crate::{Outcome, SimulationError};
 use checkpoint::{Marks, Part};

@@ -31,7 +31,7 @@ pub(super) fn gravitation(system: &model::Gravitation, method: Method, driver: &
     }
 }
 
-fn gravitating(system: &model::Gravitation) -> Result<Gravitation, piola_gravitation::GravitationError> {
+pub(super) fn gravitating(system: &model::Gravitation) -> Result<Gravitation, piola_gravitation::GravitationError> {
     let bodies =
         Gravitation::new(system.bodies.iter().map(|body| body.gm).collect())?.with_softening(system.softening)?;
     match system.post_newtonian {
