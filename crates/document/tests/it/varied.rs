@@ -59,7 +59,7 @@ fn bits(record: &Record) -> Vec<u64> {
 #[test]
 fn replaced_numbers_are_those_of_settings() {
     let paths =
-        [("wheel.right.width", "ft"), ("wheel[0].place[1]", "in"), ("parameters.load", "lb"), ("wheel.left.width", "")];
+        [("wheel.right.width", "ft"), ("wheel[0].place[1]", "cm"), ("parameters.load", "g"), ("wheel.left.width", "")];
     let setting = |numbers: &[f64]| -> Vec<String> {
         paths.iter().zip(numbers).map(|((path, unit), x)| format!("{path}={x:?} {unit}")).collect()
     };
