@@ -33,8 +33,10 @@ fn values_follow_the_rules_of_precedence() {
         plain("7 - 2 - 1"),
         plain("(1 + 1) * atan2(1, 1)"),
         plain("sin(pi / 6) + max(1, 2) * min(3, 4)"),
+        plain("t / 1 [s] * -(2 + 3)"),
+        plain("2.5e-1 + 1E+1 + 15e1"),
     ];
-    let expected = [50.0, -4.0, 512.0, 1.0, 4.0, core::f64::consts::FRAC_PI_2, 6.5];
+    let expected = [50.0, -4.0, 512.0, 1.0, 4.0, core::f64::consts::FRAC_PI_2, 6.5, -10.0, 160.25];
     assert_close("values", &found, &expected, Tol::ulps(2.0));
 }
 
@@ -46,8 +48,9 @@ fn units_are_converted_and_checked() {
         at(&force("2 [kN] - 3 [N s/m] * rate(x)").unwrap()),
         at(&force("5 [N] * sin(2 [1/s] * t)").unwrap()),
         at(&force("7").unwrap()),
+        at(&force("1 [N/m^4] * (x ^ 2) ^ 2").unwrap()),
     ];
-    assert_close("forces", &found, &[2.0, 1991.0, 5.0 * 4.0_f64.sin(), 7.0], Tol::ulps(2.0));
+    assert_close("forces", &found, &[2.0, 1991.0, 5.0 * 4.0_f64.sin(), 7.0, 0.0625], Tol::ulps(2.0));
     for wrong in ["x", "k * x + x", "sin(x)", "k * rate(x)", "x ^ t", "2 [furlong]"] {
         assert!(force(wrong).is_err(), "{wrong}");
     }
@@ -55,15 +58,32 @@ fn units_are_converted_and_checked() {
 
 #[test]
 fn what_cannot_be_read_is_refused_with_what_would_be_valid() {
-    for (text, part) in [("2 x", "cannot stand"), ("y + 1", "y"), ("(1", ""), ("", ""), ("rate(k)", ""), ("1e999", "")]
-    {
+    let texts = [
+        ("2 x", "cannot stand"),
+        ("2e", "cannot stand"),
+        ("y + 1", "y"),
+        ("(1", ""),
+        ("", ""),
+        ("rate(k)", ""),
+        ("1e999", ""),
+    ];
+    for (text, part) in texts {
         let mistake = parse(text, &names(), Dimension::NONE).unwrap_err();
         assert!(mistake.found.contains(part) && !mistake.valid.is_empty(), "{text}: {mistake:?}");
     }
     // Deep brackets end in a refusal, not in the stack.
     let deep = format!("{}1{}", "(".repeat(10_000), ")".repeat(10_000));
     assert!(parse(&deep, &names(), Dimension::NONE).is_err());
+    // Brackets beside each other are no depth.
+    assert_close(
+        "seventy",
+        &[at(&parse(&["(1)"; 70].join("+"), &names(), Dimension::NONE).unwrap())],
+        &[70.0],
+        Tol::ulps(0.0),
+    );
     let mut names = names();
+    assert!(names.add("mass[12]", NameMeaning::Number(3.0), Dimension::NONE));
+    assert_close("index", &[at(&parse("mass[12] * 2", &names, Dimension::NONE).unwrap())], &[6.0], Tol::ulps(0.0));
     assert!(
         !names.add("t", NameMeaning::Number(1.0), Dimension::NONE)
             && !names.add("sin", NameMeaning::Number(1.0), Dimension::NONE)

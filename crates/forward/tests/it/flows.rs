@@ -68,6 +68,27 @@ fn a_drive_found_from_an_answer_gives_that_answer() {
 }
 
 #[test]
+fn profiles_go_evenly_from_one_wall_to_the_other() {
+    let oil = "newtonian:viscosity_coefficient=2";
+    let turned = ("angular_velocity", "3 rad/s");
+    let sizes = [("inner_radius", "1 cm"), ("outer_radius", "2 cm")];
+    let couette = solved("couette", oil, &sizes, ("torque_per_length", "1 N"));
+    let plates = solved("plates", oil, &[("radius", "25 mm"), ("gap", "1 mm")], turned);
+    let cone = solved("cone", oil, &[("radius", "25 mm"), ("angle", "0.02 rad")], turned);
+    // A cone has no gap on its axis, so its profile begins beside it.
+    for (flow, low, high) in [(&couette, 0.01, 0.02), (&plates, 0.0, 0.025), (&cone, 0.025 / 200.0, 0.025)] {
+        let positions: Vec<f64> = flow.profile.iter().map(|point| point.position).collect();
+        let expected: Vec<f64> = (0..=200).map(|k| low + (high - low) * f64::from(k) / 200.0).collect();
+        assert_close("positions", &positions, &expected, Tol::ulps(4.0));
+    }
+    for flow in [&plates, &cone] {
+        let velocities: Vec<f64> = flow.profile.iter().map(|point| point.velocity).collect();
+        let expected: Vec<f64> = flow.profile.iter().map(|point| 3.0 * point.position).collect();
+        assert_close("velocities", &velocities, &expected, Tol::ulps(1.0));
+    }
+}
+
+#[test]
 fn a_flow_writes_its_profile_and_its_figure() {
     let mud = "bingham:yield_stress=3 Pa,plastic_viscosity=500 mPa s";
     let pipe = solved("pipe", mud, &[("radius", "1 cm")], ("pressure_gradient", "2 kPa/m"));

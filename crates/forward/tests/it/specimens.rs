@@ -96,6 +96,16 @@ fn twisted_rods_have_their_closed_forms() {
     assert_close("N", &[last(&held, "axial_force")], &[-0.25 * PI * 1e6 * 1e4 * 0.005_f64.powi(4)], SOLVED);
 }
 
+#[test]
+fn a_table_for_a_reader_has_eleven_rows_from_the_first_to_the_last() {
+    let found = loaded(&request("uniaxial", MOONEY, ("stretch", "1..2"), &[]));
+    let table = found.table();
+    let first = |line: &str| line.split_whitespace().next().and_then(|field| field.parse().ok());
+    let stretches: Vec<f64> = table.lines().skip(3).filter_map(first).collect();
+    let expected: Vec<f64> = (0..11).map(|k| 1.0 + 0.1 * f64::from(k)).collect();
+    assert_close("stretches", &stretches, &expected, Tol::stated(1e-6, "six digits are written"));
+}
+
 /// Gent's chains end at I₁ − 3 = Jₘ: λ² + 2/λ = 4 at λ = 1.675.
 #[test]
 fn a_path_that_cannot_go_on_keeps_what_it_has() {

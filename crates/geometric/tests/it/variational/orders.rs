@@ -48,6 +48,19 @@ fn errors_of_a_driven_damped_oscillator_fall_with_the_order() {
     }
 }
 
+/// Newton's method ends a linear system in one iteration: a wrong derivative of the friction would ask for more.
+#[test]
+fn a_linear_system_takes_one_iteration_a_step() {
+    let driven = Driven { friction: 0.9 };
+    for (rule, order) in all() {
+        let mut state = State::new(0.0, vec![1.0, 0.0]).unwrap();
+        let mut method = VariationalIntegrator::new(rule, order, 0.25).unwrap();
+        let report = method.integrate_to(&driven, &mut state, 5.0).unwrap();
+        // The predictor, the iteration and the look at its end.
+        assert!(report.evaluations <= 3 * report.steps, "{rule:?}, {order:?}: {report:?}");
+    }
+}
+
 #[test]
 fn a_start_from_rest_falls_freely() {
     /// L = v²/2 + q: q = t²/2, of which every rule is exact.
