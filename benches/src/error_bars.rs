@@ -93,7 +93,7 @@ fn explicit<E: Equations<D>, const D: usize>(problem: &Problem<E, D>) -> Vec<Row
 
 /// Collocation for equations of second order.
 fn collocation<E: Equations<D> + Accelerations, const D: usize>(problem: &Problem<E, D>) -> Vec<Row> {
-    let field = || Accelerated { equations: &problem.equations, freedom: D / 2 };
+    let field = || Accelerated::<_, D>(&problem.equations);
     rows!(problem, STRICTEST, GaussLegendre16: "Gauss–Legendre 16" on field(), GaussRadau15: "Gauss–Radau 15" on field())
 }
 

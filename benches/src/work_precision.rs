@@ -316,21 +316,19 @@ where
     Method { name, family: Family::CanonicalGaussLegendre, order: order.value(), parameters, run: Box::new(run) }
 }
 
-/// The equations of a problem, over any scalar.
-pub(crate) struct Accelerated<'a, E> {
-    pub(crate) equations: &'a E,
-    pub(crate) freedom: usize,
-}
+/// The equations of a problem of D components, over any scalar.
+pub(crate) struct Accelerated<'a, E, const D: usize>(pub(crate) &'a E);
 
-impl<T: Real, E: Accelerations> SecondOrder<T> for Accelerated<'_, E> {
+impl<T: Real, E: Accelerations, const D: usize> SecondOrder<T> for Accelerated<'_, E, D> {
     type Error = std::convert::Infallible;
     const VELOCITY_DEPENDENT: bool = E::VELOCITY_DEPENDENT;
+    const FREEDOM: Option<usize> = Some(D / 2);
     fn freedom(&self) -> usize {
-        self.freedom
+        D / 2
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn acceleration(&mut self, _t: T, q: &[T], v: &[T], acceleration: &mut [T]) -> Result<(), Self::Error> {
-        self.equations.accelerations(q, v, acceleration);
+        self.0.accelerations(q, v, acceleration);
         Ok(())
     }
 }
@@ -338,7 +336,7 @@ impl<T: Real, E: Accelerations> SecondOrder<T> for Accelerated<'_, E> {
 /// Collocation of order sixteen, adaptive, on equations written by hand.
 #[must_use]
 pub fn gauss_legendre_16<E: Equations<D> + Accelerations, const D: usize>(problem: &Problem<E, D>) -> Method<'_> {
-    let field = || Accelerated { equations: &problem.equations, freedom: D / 2 };
+    let field = || Accelerated::<_, D>(&problem.equations);
     Method { name: "Gauss–Legendre 16".into(), ..derived_gauss_legendre_16("", problem.start, problem.end, field) }
 }
 
@@ -368,7 +366,7 @@ where
 /// Collocation of order fifteen, adaptive, on equations written by hand.
 #[must_use]
 pub fn gauss_radau_15<E: Equations<D> + Accelerations, const D: usize>(problem: &Problem<E, D>) -> Method<'_> {
-    let field = || Accelerated { equations: &problem.equations, freedom: D / 2 };
+    let field = || Accelerated::<_, D>(&problem.equations);
     Method { name: "Gauss–Radau 15".into(), ..derived_gauss_radau_15("", problem.start, problem.end, field) }
 }
 
