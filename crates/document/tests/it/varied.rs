@@ -42,7 +42,9 @@ width = '1 ft'
 
 fn cart(settings: &[String]) -> Document {
     let mut document = Document::parse("cart.toml", TEXT);
-    settings.iter().for_each(|setting| document.set(setting));
+    for setting in settings {
+        document.set(setting);
+    }
     document
 }
 
