@@ -27,6 +27,9 @@ fn a_body_deformed_as_it_grew_has_no_stress() -> Result<(), Box<dyn Error>> {
     let law = Grown::along(NeoHookeanCiarlet::with_constants(1.0, 2.0)?, 1.5, Fibre::new([0.6, 0.8, 0.0])?)?;
     let stress = law.first_piola(&DeformationGradient::new(law.growth())?).0;
     assert!(stress.norm() <= 16.0 * f64::EPSILON, "{stress}");
+    // 1 + (ϑ − 1) a ⊗ a.
+    let expected = Matrix3::new(1.18, 0.24, 0.0, 0.24, 1.32, 0.0, 0.0, 0.0, 1.0);
+    assert_close("G", law.growth().as_slice(), expected.as_slice(), Tol::ulps(4.0));
     Ok(())
 }
 

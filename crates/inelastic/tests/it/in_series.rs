@@ -67,6 +67,14 @@ fn springs_in_series_without_a_dashpot_are_elastic() -> Fallible {
     let other = point.advance(&f, 1.0, &StepControl::one_step())?;
     let tol = Tol::ulps_because(1e3, "Newton's method ends at a residual of 1e-15");
     assert_close("P", other.first_piola.0.as_slice(), straight.first_piola.0.as_slice(), tol);
+    // In another unit of stress.
+    for unit in [1e-9, 1e9] {
+        let (first, second) = ([unit, 2.0 * unit], [3.0 * unit, unit]);
+        let [first, second] = [first, second].map(|[mu, lambda]| NeoHookeanCiarlet::with_constants(mu, lambda));
+        let law = InSeries::new(first?, second?, 0.0)?;
+        let stress = InelasticPoint::new(&law).advance(&f, 1.0, &StepControl::one_step())?.first_piola.0 / unit;
+        assert_close("P", stress.as_slice(), straight.first_piola.0.as_slice(), tol);
+    }
     Ok(())
 }
 

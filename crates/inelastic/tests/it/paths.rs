@@ -8,7 +8,7 @@ use piola_inelastic::{
     StepControl, Viscoplastic,
 };
 use piola_numerics::linear::matrix3::determinant;
-use piola_solids::{Hencky, NeoHookeanCiarlet};
+use piola_solids::{Hencky, Hyperelastic, NeoHookeanCiarlet};
 use piola_testkit::golden::{self, matrix, number, text, vector};
 use piola_testkit::{Tol, assert_close, assert_order};
 use serde_json::Value;
@@ -143,6 +143,35 @@ fn kinematic_stress_and_state_equal_the_reference_where_legs_cross_the_yield_sur
 #[test]
 fn driven_growth_stress_equals_the_reference() -> Fallible {
     assert_eq!(follow("driven_growth", &driven_growth()?)?, 1);
+    Ok(())
+}
+
+/// From ϑ = 1 growth begins at the rate k tr M, and shrinking too, whatever the bounds.
+#[test]
+fn growth_begins_at_the_rate_of_the_stress_in_both_directions() -> Fallible {
+    let (spring, rate, dt) = (springs()?.0, 0.5, 1e-7);
+    let law = DrivenGrowth::new(spring, rate, [0.5, 2.0], 2.0)?;
+    for stretch in [1.25, 0.8] {
+        let f = DeformationGradient::diagonal([stretch; 3])?;
+        // Mandel's stress of a dilation: Fᵀ P.
+        let trace = 3.0 * stretch * spring.first_piola(&f).0[(0, 0)];
+        let advanced = InelasticPoint::new(&law).advance(&f, dt, &StepControl::one_step())?;
+        let tol = Tol::stated(3e-5, "ten to twenty times the change of 1e-6, which the stress feels");
+        assert_close("dϑ/dt", &[(advanced.state[0] - 1.0) / dt], &[rate * trace], tol);
+    }
+    Ok(())
+}
+
+/// A change of the volume alone has no deviator that would flow.
+#[test]
+fn a_dilation_leaves_the_state_of_a_rubber() -> Fallible {
+    let law = bergstrom_boyce()?;
+    let f = DeformationGradient::diagonal([1.1; 3])?;
+    let advanced = InelasticPoint::new(&law).advance(&f, 1.0, &StepControl::one_step())?;
+    let (rest, spring) = springs()?;
+    let expected = rest.first_piola(&f).0 + spring.first_piola(&f).0;
+    assert_close("P", advanced.first_piola.0.as_slice(), expected.as_slice(), Tol::ulps(64.0));
+    assert_close("state", &advanced.state, &law.initial(), Tol::ulps(4.0));
     Ok(())
 }
 

@@ -320,8 +320,8 @@ impl Workspace {
         };
         let attempt = sweep(field, step, coordinates, &mut self.expected, evaluations);
         self.accelerations[..N].copy_from_slice(&accelerations);
-        // Nobody reads this. But stores of whole stages make the compiler compute the sweep in whole vectors: without them a run takes a
-        // quarter longer.
+        // Nobody reads this. But without it a run takes a quarter longer: it seems that stores of whole stages make the compiler compute
+        // the sweep in whole vectors.
         self.swept[..N].copy_from_slice(&swept);
         attempt
     }
