@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use piola_document::Document;
+use piola_document::{Document, Record};
 
 use crate::model::Builder;
 use crate::schema::SCENE;
-use crate::varied_scene::built;
 use crate::{Scene, SceneError, Study};
 
 /// A checked scene file: a motion or a study.
@@ -50,5 +49,15 @@ impl SceneFile {
         let mut builder = Builder::new(document, mistakes);
         let built = built(&mut builder, &record);
         builder.finish(built)
+    }
+}
+
+/// The scene of a record.
+pub(crate) fn built(builder: &mut Builder<'_>, record: &Record) -> Option<SceneFile> {
+    // One that has no kind, or several, is answered as a motion is.
+    if Study::kind(record).is_some() {
+        builder.study(record).map(SceneFile::Study)
+    } else {
+        builder.scene(record).map(|scene| SceneFile::Motion(Box::new(scene)))
     }
 }

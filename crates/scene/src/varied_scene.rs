@@ -1,10 +1,11 @@
 //! A scene of which some numbers differ from run to run.
 
-use piola_document::{Document, Record, Varied};
+use piola_document::{Document, Varied};
 
+use crate::SceneFile;
 use crate::model::{Builder, Kept};
+use crate::scene_file::built;
 use crate::schema::SCENE;
-use crate::{SceneFile, Study};
 
 /// A scene that is parsed once, and built again with other numbers at some paths.
 ///
@@ -57,15 +58,5 @@ impl VariedScene {
         let mut builder = Builder::new(&self.document, Vec::new()).keeping(&self.kept);
         let built = built(&mut builder, &record);
         builder.finish(built).ok()
-    }
-}
-
-/// The scene of a record.
-pub(crate) fn built(builder: &mut Builder<'_>, record: &Record) -> Option<SceneFile> {
-    // One that has no kind, or several, is answered as a motion is.
-    if Study::kind(record).is_some() {
-        builder.study(record).map(SceneFile::Study)
-    } else {
-        builder.scene(record).map(|scene| SceneFile::Motion(Box::new(scene)))
     }
 }
