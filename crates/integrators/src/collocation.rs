@@ -99,7 +99,11 @@ impl Attempt {
     /// By how much the step should be longer, for the last coefficient `aim`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn factor(&self, plan: &Plan, aim: f64) -> f64 {
-        let accurate = if 0.0 < self.ratio { inverse_seventh_root(self.ratio / aim) } else { f64::INFINITY };
+        let accurate = match self.ratio / aim {
+            excess if 0.0 < excess && excess < f64::INFINITY => inverse_seventh_root(excess),
+            excess if 0.0 < excess => 0.0,
+            _ => f64::INFINITY,
+        };
         if !self.converged {
             return if self.hopeless { SAFETY * accurate } else { UNCONVERGED };
         }
@@ -201,8 +205,9 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
             return Err(IntegratorsError::TooManySteps { t: state.time, steps: report.steps });
         }
         let mut last = equal.is_some_and(|(count, _)| count == report.steps + 1);
+        let mut halved = false;
         if equal.is_none() {
-            (h, last) = shared(h.clamp(-plan.longest_step, plan.longest_step), remaining);
+            (h, last, halved) = shared(h.clamp(-plan.longest_step, plan.longest_step), remaining);
             if h.abs() <= 2.0 * f64::EPSILON * state.time.abs() || h.abs() < f64::MIN_POSITIVE {
                 return Err(too_small(work, refused, state.time, h, span));
             }
@@ -260,7 +265,12 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
             None if !last => state.advance_time(h),
             _ => state.set_time(end),
         }
-        let (best, next) = if equal.is_none() { next_step(h, factor, best_before) } else { (h, h) };
+        let (best, mut next) = if equal.is_none() { next_step(h, factor, best_before) } else { (h, h) };
+        let rest = end - state.time;
+        if halved && next.abs() < rest.abs() {
+            // The second of the two steps that share what remained. Halved again and again, the rest would never end.
+            next = rest;
+        }
         let progress = RunSoFar { report, start, time_carry: state.time_carry, next, best };
         let step = AcceptedStep { number: report.steps, start: from, end: state.time, length: h, progress };
         if let ControlFlow::Break((time, ending)) = inspect(work, state, step)? {
@@ -402,14 +412,14 @@ fn diverged<T: Real, F, W: Collocation<T, F>>(
     work.check_rates(t).err().filter(|_| attempt.change.is_infinite()).unwrap_or(diverged)
 }
 
-/// The length of the next step, and whether it is the last: the last two steps share what remains.
-fn shared(h: f64, remaining: f64) -> (f64, bool) {
+/// The length of the next step, whether it is the last, and whether it is half of what remains: the last two steps share that.
+fn shared(h: f64, remaining: f64) -> (f64, bool, bool) {
     if remaining.abs() <= h.abs() * (1.0 + 1e-9) {
-        (remaining, true)
+        (remaining, true, false)
     } else if remaining.abs() < 2.0 * h.abs() {
-        (0.5 * remaining, false)
+        (0.5 * remaining, false, true)
     } else {
-        (h, false)
+        (h, false, false)
     }
 }
 
