@@ -204,10 +204,9 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
         if plan.most_steps <= report.steps {
             return Err(IntegratorsError::TooManySteps { t: state.time, steps: report.steps });
         }
-        let mut last = equal.is_some_and(|(count, _)| count == report.steps + 1);
-        let mut halved = false;
+        let (mut last, mut rest) = (equal.is_some_and(|(count, _)| count == report.steps + 1), 0.0);
         if equal.is_none() {
-            (h, last, halved) = shared(h.clamp(-plan.longest_step, plan.longest_step), remaining);
+            (h, last, rest) = shared(h.clamp(-plan.longest_step, plan.longest_step), remaining);
             if h.abs() <= 2.0 * f64::EPSILON * state.time.abs() || h.abs() < f64::MIN_POSITIVE {
                 return Err(too_small(work, refused, state.time, h, span));
             }
@@ -265,12 +264,7 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
             None if !last => state.advance_time(h),
             _ => state.set_time(end),
         }
-        let (best, mut next) = if equal.is_none() { next_step(h, factor, best_before) } else { (h, h) };
-        let rest = end - state.time;
-        if halved && next.abs() < rest.abs() {
-            // The second of the two steps that share what remained. Halved again and again, the rest would never end.
-            next = rest;
-        }
+        let (best, next) = if equal.is_none() { next_step(h, factor, best_before, rest) } else { (h, h) };
         let progress = RunSoFar { report, start, time_carry: state.time_carry, next, best };
         let step = AcceptedStep { number: report.steps, start: from, end: state.time, length: h, progress };
         if let ControlFlow::Break((time, ending)) = inspect(work, state, step)? {
@@ -376,12 +370,14 @@ fn inverse_seventh_root(x: f64) -> f64 {
     z
 }
 
-/// The step that would have been the best one, and the next one to try: as the best step changed, it will change.
+/// The step that would have been the best one, and the next one to try: as the best step changed, it will change. It takes at least `rest`,
+/// the second half of what two steps share: halved again and again, the rest would never end.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn next_step(h: f64, factor: f64, best_before: f64) -> (f64, f64) {
+fn next_step(h: f64, factor: f64, best_before: f64, rest: f64) -> (f64, f64) {
     let best = h.abs() * factor;
     let trend = if 0.0 < best_before { (best / best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
-    (best.min(f64::MAX), h * (SAFETY * factor * trend).min(MOST_GROWTH))
+    let next = h * (SAFETY * factor * trend).min(MOST_GROWTH);
+    (best.min(f64::MAX), if next.abs() < rest.abs() { rest } else { next })
 }
 
 /// Why steps shrink until they no longer advance the time.
@@ -412,14 +408,14 @@ fn diverged<T: Real, F, W: Collocation<T, F>>(
     work.check_rates(t).err().filter(|_| attempt.change.is_infinite()).unwrap_or(diverged)
 }
 
-/// The length of the next step, whether it is the last, and whether it is half of what remains: the last two steps share that.
-fn shared(h: f64, remaining: f64) -> (f64, bool, bool) {
+/// The length of the next step, whether it is the last, and that of the step after it where the last two steps share what remains.
+fn shared(h: f64, remaining: f64) -> (f64, bool, f64) {
     if remaining.abs() <= h.abs() * (1.0 + 1e-9) {
-        (remaining, true, false)
+        (remaining, true, 0.0)
     } else if remaining.abs() < 2.0 * h.abs() {
-        (0.5 * remaining, false, true)
+        (0.5 * remaining, false, 0.5 * remaining)
     } else {
-        (h, false, false)
+        (h, false, 0.0)
     }
 }
 
