@@ -8,9 +8,9 @@ use crate::{Document, Record};
 
 /// A document that is parsed and checked once, and in which the numbers at some paths are then replaced.
 ///
-/// The record with replaced numbers is the one that [`Document::records`] makes after settings with the same numbers, but for places: those
-/// of the replaced numbers are of the settings that the document had. A number that is not valid gives no record; the mistake
-/// and its place are then found by settings on the document itself.
+/// The record with replaced numbers is the one that [`Document::records`] makes after settings with the same numbers. Only its places differ: they
+/// are those of the settings that the document had. A number that is not valid gives no record; [`Document::set`] on the document itself then
+/// tells the mistake with its place.
 ///
 /// # Example
 /// ```
@@ -113,27 +113,22 @@ fn number(record: &Record, root: &'static Table, path: &str, unit: &str) -> Opti
 }
 
 impl Varied {
-    /// The record of the document itself.
-    #[must_use]
-    pub const fn base(&self) -> &Record {
-        &self.record
-    }
-
     /// The record with other numbers, in the order and the units of the paths; nothing if one of them is not valid.
     #[must_use]
     pub fn record(&self, numbers: &[f64]) -> Option<Record> {
+        if numbers.len() != self.numbers.len() {
+            return None;
+        }
         let mut record = self.record.clone();
-        self.replace(&mut record, numbers).then_some(record)
-    }
-
-    /// Replaces the numbers in a record of this document; whether all of them are valid.
-    fn replace(&self, record: &mut Record, numbers: &[f64]) -> bool {
-        numbers.len() == self.numbers.len()
-            && self.numbers.iter().zip(numbers).all(|(number, &value)| number.replace(record, value).is_some())
+        for (number, &value) in self.numbers.iter().zip(numbers) {
+            number.replace(&mut record, value)?;
+        }
+        Some(record)
     }
 }
 
 impl Number {
+    /// Replaces the number in a record; nothing if the value is not valid.
     fn replace(&self, record: &mut Record, value: f64) -> Option<()> {
         if !value.is_finite() {
             return None;

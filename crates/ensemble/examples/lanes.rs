@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p piola-ensemble --example lanes -- 200`
 
-#![expect(clippy::print_stdout, reason = "what it measures is told there")]
+#![expect(clippy::print_stdout, reason = "the times are its output")]
 
 use std::time::Instant;
 

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p piola-ensemble --example pendulums -- 10000`
 
-#![expect(clippy::print_stdout, reason = "what it measures is told there")]
+#![expect(clippy::print_stdout, reason = "the times are its output")]
 
 use std::ops::ControlFlow;
 use std::path::Path;

@@ -42,7 +42,7 @@ impl<'c> Crew<'c> {
         self.unfinished
     }
 
-    /// Takes members, of which as many as are best computed together go to one thread.
+    /// Hands members to the threads, in groups that are computed together.
     pub(crate) fn take(&mut self, scope: &rayon::Scope<'c>, members: &[u64]) {
         let (ensemble, stop) = (self.ensemble, self.stop);
         for members in members.chunks(ensemble.at_once()) {

@@ -43,7 +43,7 @@ pub struct Ensemble {
     repeats: u64,
     seed: u64,
     columns: Vec<String>,
-    /// The scene, read once; none where that does not serve for what is varied.
+    /// The scene, read once; none if a varied value is not a quantity.
     varied: Option<VariedScene>,
     together: bool,
 }
@@ -173,8 +173,8 @@ impl Ensemble {
         if self.together { TOGETHER } else { 1 }
     }
 
-    /// Computes members until `stop` says so; then those that are not finished are none. As many as [`at_once`](Self::at_once) tells are
-    /// integrated together, each in a lane of a vector of numbers, if all take the same steps. A member's numbers are those of
+    /// Computes members until `stop` says so; members that are not finished then are none. Groups of [`at_once`](Self::at_once) members that
+    /// take the same steps are integrated together, each in a lane of a vector of numbers. A member's numbers are those of
     /// [`member`](Self::member), to the last bit.
     ///
     /// # Example

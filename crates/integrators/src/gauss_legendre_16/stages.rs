@@ -76,7 +76,7 @@ fn joined(first: Half, last: Half) -> Stages {
     Lanes([a, b, c, d, e, f, g, h])
 }
 
-/// base + (same ± opposite): stages of what is the same for mirrored ones and what is opposite.
+/// base + (same ± opposite): all stages, from the part that mirrored stages share and the part in which they have opposite signs.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn mirrored_about(base: f64, same: Half, opposite: Half) -> Stages {
     joined(Lanes::splat(base) + (same + opposite), Lanes::splat(base) + (same - opposite))

@@ -13,6 +13,7 @@ use piola_fluids::ViscometricFluid as _;
 use piola_viscometry::recover::Noise;
 use serde_json::{Value, json};
 
+use super::contained::{CONTAINED, with_contained};
 use super::{Flow, Measured, figure};
 use crate::MeasuredError;
 use crate::comparison::{self, Judged, Watch};
@@ -151,52 +152,6 @@ impl Look {
             _ => Vec::new(),
         }
     }
-}
-
-/// The place of a fluid's parameters in one that contains it; what it has not is so small that it does nothing.
-type Embedding = (FluidModel, FluidModel, fn(&[f64]) -> Vec<f64>);
-
-/// Of no effect beside a number of its size.
-const NOTHING: f64 = 1e-12;
-
-/// Fluids with fluids that they contain.
-const CONTAINED: [Embedding; 10] = [
-    (FluidModel::PowerLaw, FluidModel::Newtonian, |p| vec![p[0], 1.0]),
-    (FluidModel::Bingham, FluidModel::Newtonian, |p| vec![NOTHING * p[0], p[0]]),
-    (FluidModel::Casson, FluidModel::Newtonian, |p| vec![NOTHING * p[0], p[0]]),
-    (FluidModel::HerschelBulkley, FluidModel::PowerLaw, |p| vec![NOTHING * p[0], p[0], p[1]]),
-    (FluidModel::HerschelBulkley, FluidModel::Bingham, |p| vec![p[0], p[1], 1.0]),
-    (FluidModel::Sisko, FluidModel::PowerLaw, |p| vec![NOTHING * p[0], p[0], p[1]]),
-    (FluidModel::Sisko, FluidModel::Newtonian, |p| vec![p[0], NOTHING * p[0], 0.5]),
-    // η₀ beyond all rows: η₀/(λ k)^(1 − n) = K k^(n − 1).
-    (FluidModel::Cross, FluidModel::Sisko, |p| {
-        let [zero, time] = beyond(p);
-        vec![zero, p[0], time, 1.0 - p[2]]
-    }),
-    (FluidModel::CarreauYasuda, FluidModel::Sisko, |p| {
-        let [zero, time] = beyond(p);
-        vec![zero, p[0], time, p[2], 1.0]
-    }),
-    // (1 + (λ k)^m)⁻¹, as far as m < 1.
-    (FluidModel::CarreauYasuda, FluidModel::Cross, |p| vec![p[0], p[1], p[2], (1.0 - p[3]).max(1e-3), p[3]]),
-];
-
-/// The fluids, and after them those that they contain.
-fn with_contained(fluids: &[FluidModel]) -> Vec<FluidModel> {
-    let mut all = fluids.to_vec();
-    // From the largest fluids to the smallest.
-    for (larger, smaller, _) in CONTAINED.iter().rev() {
-        if all.contains(larger) && !all.contains(smaller) {
-            all.push(*smaller);
-        }
-    }
-    all
-}
-
-/// A viscosity at rest, and a time, of a fluid that thins as Sisko's over all rows.
-fn beyond(sisko: &[f64]) -> [f64; 2] {
-    const FAR: f64 = 1e6;
-    [FAR * sisko[1], FAR.powf((1.0 - sisko[2]).recip())]
 }
 
 /// Fluids to compare, and how.

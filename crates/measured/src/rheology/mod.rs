@@ -15,6 +15,7 @@
 //! ```
 
 mod columns;
+mod contained;
 mod figure;
 mod fluids;
 mod geometry;

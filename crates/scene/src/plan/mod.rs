@@ -124,8 +124,8 @@ impl Plan {
         plan
     }
 
-    /// The plan of a scene as [`run`](crate::run::run()) needs it: the method and the numbers, without what is computed and skipped and which files
-    /// are written.
+    /// The plan that [`run`](crate::run::run()) needs: the method and the numbers. What is computed, what is skipped and which files are written
+    /// is left out.
     ///
     /// # Example
     /// ```
